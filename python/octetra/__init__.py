@@ -6,7 +6,7 @@
     step = mesh.refine(octetra.mark.sphere(mesh, (0, 0, 0), 0.3))
     mesh.save("state.octetra")
 
-MPI is that of mpi4py where it is installed. `python3 -m octetra` is the command line.
+MPI is that of mpi4py if it is installed. `python3 -m octetra` runs the command line.
 """
 
 from . import mark as mark

@@ -1,8 +1,7 @@
 """python3 -m octetra: the command line.
 
-The program takes this process's place, rather than being called in it: so its signals, its exit status
-and its streams are those of the program in a shell, and MPI, which a process can start once, starts in
-it, also under mpirun.
+The program replaces this process. Signals, exit status and streams are therefore those of the program,
+and MPI, which a process can start only once, starts in it, also under mpirun.
 """
 
 import os
@@ -14,13 +13,13 @@ from ._program import PATH
 
 
 def program() -> str:
-    """That which was built or installed with the module, else one on the PATH."""
+    """The path of the program that was built or installed with the module, or of one on the PATH."""
     beside = pathlib.Path(__file__).resolve().parent / PATH
     if beside.exists():
         return str(beside.resolve())
     found = shutil.which("octetra")
     if found is None:
-        sys.exit(f"octetra: there is no program {beside}, nor one on the PATH")
+        sys.exit(f"octetra: there is no program {beside}, and none on the PATH")
     return found
 
 

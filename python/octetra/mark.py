@@ -1,4 +1,4 @@
-"""Which cells a step is to refine or coarsen: booleans, one for each cell of this rank."""
+"""Marks of cells to refine or coarsen: arrays of booleans, one for each cell of this rank."""
 
 from ._octetra.mark import (
     box as box,

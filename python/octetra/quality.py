@@ -1,4 +1,4 @@
-"""Shapes of cells."""
+"""Measures of the shape of cells."""
 
 from ._octetra.quality import (
     dihedral_angles as dihedral_angles,

@@ -19,22 +19,22 @@ bool is_whole(const py::array& array) {
     return array.dtype().kind() == 'i' || array.dtype().kind() == 'u';
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::string& wanted,
-                         const py::array& given) {
-    throw InputError(fmt::format("{}: {}; given are {} of shape {}", name, wanted,
+[[noreturn]] void refuse_array(const std::string& name, const std::string& expected,
+                               const py::array& given) {
+    throw InputError(fmt::format("{} must be {}, not {} of shape {}", name, expected,
                                  py::str(given.dtype()).cast<std::string>(),
                                  py::str(given.attr("shape")).cast<std::string>()));
 }
 
-/// Has an array of whole numbers more than one value beside 0?
+/// Has an array of integers more than one value other than 0?
 bool has_several_values(const py::array& array) {
     const py::object set = array[array.attr("__ne__")(0)];
     return py::len(set) > 0 && set.attr("min")().not_equal(set.attr("max")());
 }
 
-/// The marks of this many cells, none of them set.
 using Bytes = py::array_t<std::uint8_t>;
 
+/// Marks of cells, none of which is set.
 Bytes no_marks(std::size_t cell_count) {
     Bytes marks(static_cast<py::ssize_t>(cell_count));
     std::memset(marks.mutable_data(), 0, cell_count);
@@ -54,7 +54,7 @@ py::array array_over(const py::dtype& type, std::vector<py::ssize_t> shape, cons
         delete static_cast<std::shared_ptr<const void>*>(pointer);
     });
     (void)kept.release();
-    static const double nothing = 0;  // without a place numpy would take memory of its own
+    static const double nothing = 0;  // without an address, numpy would allocate memory
     if (data == nullptr) data = &nothing;
     py::array array(type, std::move(shape), data, capsule);
     if (!is_writable) array.attr("setflags")(py::arg("write") = false);
@@ -72,24 +72,25 @@ std::vector<V> values_of(const std::string& name, const py::handle& given) {
     constexpr bool is_real = std::is_floating_point_v<Number>;
     if (given.is_none()) return {};
     const py::array array = any_array(given);
-    const std::string wanted = fmt::format("{} of shape {}", is_real ? "numbers" : "whole numbers",
-                                           columns == 1 ? "(n,)" : fmt::format("(n, {})", columns));
+    const std::string expected =
+        fmt::format("{} of shape {}", is_real ? "numbers" : "integers",
+                    columns == 1 ? "(n,)" : fmt::format("(n, {})", columns));
     if (array.size() == 0) return {};
     const bool fits_shape =
         columns == 1 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == columns;
     if (!fits_shape || !(is_whole(array) || (is_real && array.dtype().kind() == 'f'))) {
-        refuse(name, wanted, array);
+        refuse_array(name, expected, array);
     }
     const auto numbers = py::array_t<Number, py::array::c_style | py::array::forcecast>(array);
     if constexpr (Numbers<V>::is_index) {
         const py::object least = array.attr("min")();
         if (least.attr("__lt__")(0).template cast<bool>()) {
-            throw InputError(fmt::format("{}: numbers from 0; given is {}", name,
+            throw InputError(fmt::format("{} must be integers from 0; the least is {}", name,
                                          py::str(least).cast<std::string>()));
         }
     }
     if (!is_real && !numbers.attr("__eq__")(array).attr("all")().template cast<bool>()) {
-        refuse(name, fmt::format("numbers that fit into {} bits", 8 * sizeof(Number)), array);
+        refuse_array(name, fmt::format("numbers that fit into {} bits", 8 * sizeof(Number)), array);
     }
     std::vector<V> values(static_cast<std::size_t>(array.shape(0)));
     static_assert(std::is_trivially_copyable_v<V> && sizeof(V) == columns * sizeof(Number));
@@ -106,19 +107,9 @@ template std::vector<std::array<std::uint64_t, 2>> values_of(const std::string&,
 template std::vector<std::array<std::uint64_t, 3>> values_of(const std::string&, const py::handle&);
 template std::vector<std::array<std::uint64_t, 4>> values_of(const std::string&, const py::handle&);
 
-std::uint64_t whole_number(const std::string& name, const py::handle& given) {
-    const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
-    if (!number) PyErr_Clear();
-    const std::uint64_t value = number ? PyLong_AsUnsignedLongLong(number.ptr()) : 0;
-    if (number && PyErr_Occurred() == nullptr) return value;
-    PyErr_Clear();
-    throw InputError(fmt::format("{}: a whole number from 0; given is {}", name,
-                                 py::repr(given).cast<std::string>()));
-}
-
 Marks marks_of(const py::handle& given, std::size_t cell_count) {
     if (given.is_none()) return owned(no_marks(cell_count));
-    // What most programs pass is taken as it is, before numpy is asked for anything.
+    // Contiguous booleans, the usual case, are used without a copy and without calls of numpy.
     if (py::isinstance<py::array_t<bool>>(given)) {
         const auto booleans = py::reinterpret_borrow<py::array_t<bool>>(given);
         if (booleans.ndim() == 1 && booleans.shape(0) == static_cast<py::ssize_t>(cell_count) &&
@@ -135,14 +126,14 @@ Marks marks_of(const py::handle& given, std::size_t cell_count) {
     if (array.ndim() != 1 || static_cast<std::size_t>(array.size()) != cell_count ||
         !(is_boolean || is_whole(array))) {
         const char* const hint = is_whole(array) ? " (numbers of cells are passed as cells=)" : "";
-        refuse("marks",
-               fmt::format("a boolean or whole number for each of {} cells{}", cell_count, hint),
-               array);
+        refuse_array("marks",
+                     fmt::format("a boolean or integer for each of {} cells{}", cell_count, hint),
+                     array);
     }
     if (!is_boolean && has_several_values(array)) {
         throw InputError(
-            "marks: whole numbers are 0 or one other value, which means true, and these have "
-            "several, as numbers of cells have; numbers of cells are passed as cells=");
+            "marks that are integers must be 0 or one other value, which means true, and these "
+            "have several other values; numbers of cells are passed as cells=");
     }
     if (!is_boolean) array = array.attr("__ne__")(0);
     return owned(
@@ -155,7 +146,7 @@ Marks marks_of_list(const py::handle& given, std::size_t cell_count) {
     for (const std::uint64_t cell : cells) {
         if (cell >= cell_count) {
             throw InputError(
-                fmt::format("cells: {} is marked, and this rank has {} cells", cell, cell_count));
+                fmt::format("cells has number {}, and this rank has {} cells", cell, cell_count));
         }
         marks.mutable_data()[cell] = 1;
     }

@@ -15,14 +15,14 @@
 #include <octetra/core/mesh.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
-/// Vectors and spans of the library as numpy arrays, and numpy arrays as vectors.
+/// Conversion of vectors and spans to numpy arrays, and of numpy arrays to vectors.
 namespace octetra::python {
 
 namespace py = pybind11;
 
-/// The type and the count of the numbers that numpy sees in a value of the library. Indices are
-/// signed, int32 on a rank and int64 in the whole mesh, as petsc4py and DOLFINx have them; the bits
-/// are those of the library's unsigned types, and an index that stands for "none" is -1.
+/// The type and the count of the numbers that a value has in numpy. Indices are signed, int32 on a
+/// rank and int64 in the whole mesh, as in petsc4py and DOLFINx; their bits are those of the
+/// unsigned types of the library, so that the index that means "none" is -1.
 template <class T>
 struct Numbers {
     using Number = T;
@@ -58,12 +58,12 @@ struct Numbers<std::array<T, N>> {
     static constexpr bool is_index = Numbers<T>::is_index;
 };
 
-/// An array of shape (n, ...) over memory that `owner` keeps, which the array keeps.
+/// An array of shape (n, ...) over memory of `owner`, which the array keeps alive.
 [[nodiscard]] py::array array_over(const py::dtype& type, std::vector<py::ssize_t> shape,
                                    const void* data, std::shared_ptr<const void> owner,
                                    bool is_writable);
 
-/// A read-only array of these values, of shape (n,) or (n, numbers of a value), without a copy.
+/// A read-only array of shape (n,) or (n, numbers of a value) over these values, without a copy.
 template <class T>
 [[nodiscard]] py::array view(std::span<const T> values, std::shared_ptr<const void> owner) {
     using Number = typename Numbers<T>::Number;
@@ -75,36 +75,33 @@ template <class T>
                       false);
 }
 
-/// The same of values that the array is to have for itself; they are not copied.
+/// The same, for values that the array owns; they are moved.
 template <class T, class Allocator>
 [[nodiscard]] py::array array_of(std::vector<T, Allocator> values) {
     const auto kept = std::make_shared<const std::vector<T, Allocator>>(std::move(values));
     return view(std::span<const T>(*kept), kept);
 }
 
-/// Bytes that are 0 or 1 as booleans, without a copy.
+/// A boolean array from bytes that are 0 or 1, without a copy.
 [[nodiscard]] py::array booleans(std::vector<std::uint8_t> bytes);
 
-/// Whole numbers of any type, or any real ones where those of V are real, as values: of shape (n,),
-/// or (n, numbers of a value). None of them for None. Throws InputError where a number or the shape
-/// does not fit; `name` is what the caller calls them.
+/// Values of shape (n,) or (n, numbers of a value), from integers of any type, or from any real
+/// numbers if those of V are real; no values for None. Throws InputError if the shape or a number
+/// does not fit; `name` is the argument in the message.
 template <class V>
 [[nodiscard]] std::vector<V> values_of(const std::string& name, const py::handle& given);
 
-/// A whole number from 0. Throws InputError where it is none; `name` is what the caller calls it.
-[[nodiscard]] std::uint64_t whole_number(const std::string& name, const py::handle& given);
-
-/// A byte for each cell, and what has them.
+/// A byte for each cell, and the object that owns the bytes.
 struct Marks {
     std::span<const std::uint8_t> bytes;
     py::object owner;
 };
 
-/// From booleans, or whole numbers of any type, of which others than 0 mean true. None marks
-/// nothing.
+/// Marks from booleans, or from integers of any type that are 0 or one other value, which means
+/// true; none for None. Throws InputError.
 [[nodiscard]] Marks marks_of(const py::handle& given, std::size_t cell_count);
 
-/// The same from numbers of cells, in any order.
+/// Marks from the numbers of marked cells, in any order. Throws InputError.
 [[nodiscard]] Marks marks_of_list(const py::handle& given, std::size_t cell_count);
 
 }  // namespace octetra::python

@@ -6,7 +6,7 @@
 
 #include "held_mesh.hpp"
 
-/// The parts of the module octetra._octetra.
+/// Definitions of the functions and classes of octetra._octetra.
 namespace octetra::python {
 
 using MeshClass = py::class_<Mesh, MeshPointer>;

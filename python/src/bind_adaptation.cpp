@@ -8,6 +8,7 @@
 
 #include <octetra/distributed/conservative_transfer.hpp>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "values.hpp"
@@ -22,63 +23,73 @@ od::CellValues cell_values(const std::string& how) {
     if (how == "copied") return od::CellValues::copied;
     if (how == "averaged") return od::CellValues::averaged;
     if (how == "divided") return od::CellValues::divided;
-    throw InputError("how: 'copied', 'averaged' or 'divided'");
+    throw InputError(fmt::format("how must be 'copied', 'averaged' or 'divided', not '{}'", how));
 }
 
-py::array transfer_vertices(const Adaptation& step, const py::object& given) {
-    const Values values = values_for(given, step->vertex_count_before, "vertices before the step");
+py::array transfer_vertices(const od::Adaptation& step, const Arguments& arguments) {
+    const Values values =
+        values_for(arguments.values<1>()[0], step.vertex_count_before, "vertices before the step");
     return with_field_type(values.array, [&]<class T>(T) {
         return values.like(without_gil([&, own = values.copy<T>()]() mutable {
-            return step->transfer_vertices(std::move(own), values.components);
+            return step.transfer_vertices(std::move(own), values.components);
         }));
     });
 }
 
-py::array transfer_cells(const Adaptation& step, const py::object& given, const std::string& how) {
-    const Values values = values_for(given, step->cells.count_before(), "cells before the step");
+py::array transfer_cells(const od::Adaptation& step, const Arguments& arguments) {
+    const auto [given, method] = arguments.values<2>();
+    const Values values = values_for(given, step.cells.count_before(), "cells before the step");
+    const od::CellValues how = cell_values(string_from("how", method));
     return with_field_type(values.array, [&]<class T>(T) {
         return values.like(without_gil([&, own = values.copy<T>()]() mutable {
-            return step->transfer_cells(std::move(own), values.components, cell_values(how));
+            return step.transfer_cells(std::move(own), values.components, how);
         }));
     });
 }
 
 py::array parents(const EntityTransfer& of) {
-    if (of->merges()) throw InputError("parents are of refinement; of coarsening it is coarse_of");
+    if (of->merges()) {
+        throw InputError("parents describe refinement; coarse_of describes coarsening");
+    }
     return array_of(without_gil([&] { return of->parents(); }));
 }
 
-void bind_succession(py::module_& module) {
+void bind_entity_transfer(py::module_& module) {
     py::class_<od::EntityTransfer, EntityTransfer>(
         module, "EntityTransfer",
-        "How this rank's cells, tagged facets or tagged edges became those after a step.")
+        "The relation between this rank's cells, tagged facets or tagged edges before a step and "
+        "those after it.")
         .def_property_readonly("count_before", &od::EntityTransfer::count_before,
-                               "How many there were.")
-        .def_property_readonly("count", &od::EntityTransfer::count, "How many there are.")
+                               "int: their number before the step.")
+        .def_property_readonly("count", &od::EntityTransfer::count,
+                               "int: their number after the step.")
         .def_property_readonly("keeps_numbers", &od::EntityTransfer::keeps_numbers,
-                               "Has all that was not bisected its number still?")
+                               "bool: whether all entities that were not bisected have the same "
+                               "number as before.")
         .def_property_readonly("parents", &parents,
-                               "int32 (count,), of refinement: what each is, or is a piece of. "
-                               "Made when asked for.")
+                               "int32 (count,), of refinement: the entity before the step that "
+                               "each entity is, or is a part of. Computed on access.")
         .def_property_readonly(
             "coarse_of", [](const EntityTransfer& of) { return view(of->coarse_of(), of); },
-            "int32 (count_before,), of coarsening: what each became, or is a piece of; (0,) of "
-            "refinement.")
+            "int32 (count_before,), of coarsening: the entity after the step that each entity has "
+            "become, or has become a part of. Of refinement: (0,).")
         .def_property_readonly(
             "halvings", [](const EntityTransfer& of) { return view(of->halvings(), of); },
-            "uint8 (count_before,), of cells in coarsening: how often the whole had been halved "
-            "for "
-            "each; else (0,).");
+            "uint8 (count_before,), of cells in coarsening: how many bisections had made each cell "
+            "from the cell after the step. Otherwise: (0,).");
 }
 
-/// Collective. All ranks pass values of one type and shape.
-py::array transfer_conservatively(Mesh& mesh, const Adaptation& step, const py::object& given) {
+/// Collective. All ranks must pass values of one type and shape.
+py::array transfer_conservatively(Mesh& mesh, const Arguments& arguments) {
+    const od::Adaptation* step = nullptr;
     std::optional<Values> values;
     std::string type;
     convert_on_each(mesh.processes(), [&] {
+        const auto [adaptation, given] = arguments.values<2>();
+        step = &instance_from<od::Adaptation>("step", adaptation, "an octetra.Adaptation");
         values = values_for(given, step->vertex_count_before, "vertices before the step");
         const char kind = values->array.dtype().kind();
-        if (kind != 'f' && kind != 'c') throw InputError("values have a real or complex type");
+        if (kind != 'f' && kind != 'c') throw InputError("values must be real or complex numbers");
         with_field_type(values->array, [](auto) {});
         type = fmt::format("{}, {} values for each vertex",
                            py::str(values->array.dtype()).cast<std::string>(), values->components);
@@ -99,15 +110,15 @@ py::array transfer_conservatively(Mesh& mesh, const Adaptation& step, const py::
 }  // namespace
 
 void bind_adaptation(py::module_& module, MeshClass& mesh) {
-    bind_succession(module);
-    mesh.def("transfer_conservatively", &transfer_conservatively, py::arg("step").none(false),
-             py::arg("values"),
-             "Collective. Values of a continuous, piecewise linear function, (vertices before, "
-             "...) of float64, float32, complex128 or complex64, to (vertices now, ...), a new "
-             "array, with the same integral over the whole mesh. step: the mesh's last one. Of "
-             "coarsening, what the function deviates from its interpolant at a vertex that went "
-             "is given to the ends of the edge that the vertex halved; a function that is linear "
-             "there stays as it is.");
+    bind_entity_transfer(module);
+    def_method(mesh, "transfer_conservatively", "step, values", &transfer_conservatively,
+               "Collective. Transfers the values of a continuous, piecewise linear function to the "
+               "vertices after a step, with the same integral over the whole mesh.\n\n"
+               "step: the Adaptation of the last step of the mesh. values: (vertices before, ...) "
+               "of float64, float32, complex128 or complex64. Returns a new array, (vertices now, "
+               "...). In coarsening, the difference between the function and its interpolant at a "
+               "removed vertex is added to the ends of the edge that the vertex halved; a function "
+               "that is linear there is transferred exactly.");
     const auto entity_transfer = [](od::EntityTransfer od::Adaptation::*of) {
         return [of](const Adaptation& step) { return EntityTransfer(step, &((*step).*of)); };
     };
@@ -116,41 +127,48 @@ void bind_adaptation(py::module_& module, MeshClass& mesh) {
             return view(std::span(std::as_const((*step).*of)), step);
         };
     };
-    py::class_<od::Adaptation, Adaptation>(
+    py::class_<od::Adaptation, Adaptation> adaptation(
         module, "Adaptation",
-        "What a step did to this rank's part: for everything that there is now, what it was "
-        "before. "
-        "It stays valid whatever becomes of the mesh. Nothing here is collective.")
+        "The effect of a step on this rank's part: the relation between entities before and after "
+        "the step. It remains valid when the mesh changes. No method is collective.");
+    adaptation
         .def_readonly("changed", &od::Adaptation::changed,
-                      "Did anything change, on any rank? The same on all.")
-        .def_property_readonly("is_coarser", &od::Adaptation::is_coarser, "Was this coarsening?")
+                      "bool: whether the step has changed anything, on any rank. The same on all "
+                      "ranks.")
+        .def_property_readonly("is_coarser", &od::Adaptation::is_coarser,
+                               "bool: whether the step was coarsening.")
         .def_property_readonly("cells", entity_transfer(&od::Adaptation::cells),
-                               "This rank's cells.")
+                               "EntityTransfer of this rank's cells.")
         .def_property_readonly("facets", entity_transfer(&od::Adaptation::facets),
-                               "This rank's tagged facets.")
+                               "EntityTransfer of this rank's tagged facets.")
         .def_property_readonly("edges", entity_transfer(&od::Adaptation::edges),
-                               "This rank's tagged edges.")
+                               "EntityTransfer of this rank's tagged edges.")
         .def_readonly("vertex_count_before", &od::Adaptation::vertex_count_before,
-                      "This rank's vertices before the step.")
+                      "int: the number of this rank's vertices before the step.")
         .def_property_readonly("new_vertex_ends", list(&od::Adaptation::new_vertex_ends),
-                               "int32 (new vertices, 2): the ends of the edge that each halves; "
-                               "vertex_count_before is the number of the first.")
+                               "int32 (new vertices, 2), of refinement: the ends of the edge that "
+                               "each new vertex halves. The first new vertex has the number "
+                               "vertex_count_before.")
         .def_property_readonly("vertices_before", list(&od::Adaptation::vertices_before),
-                               "int32 (vertices,), of coarsening: the number that each had.")
-        .def(
-            "transfer_vertices", &transfer_vertices, py::arg("values"),
-            "Values of a continuous, piecewise linear function: (vertices before, ...) of float64, "
-            "float32, complex128 or complex64 to (vertices now, ...), a new array. New vertices "
-            "get the mean of the ends of their edge, which whole numbers do not have: int32 and "
-            "int64 only of coarsening. Coarsening keeps the values of the vertices that stay, and "
-            "so changes the integral; Mesh.transfer_conservatively() keeps it.")
-        .def("transfer_cells", &transfer_cells, py::arg("values"), py::arg("how") = "copied",
-             "Values of cells: (cells before, ...) of float64, float32, complex128, complex64, "
-             "int32 or int64 to (cells now, ...), a new array. how: 'copied', each child the same "
-             "(of coarsening, the pieces' mean weighted by volumes, which keeps the integral, and "
-             "of whole numbers what most of them have); 'averaged', as 'copied', but whole numbers "
-             "are refused; 'divided', by the children's shares in the volume "
-             "(the sum). Whole numbers can be copied, and of coarsening added up.");
+                               "int32 (vertices,), of coarsening: the number that each vertex had "
+                               "before the step.");
+    def_method(adaptation, "transfer_vertices", "values", &transfer_vertices,
+               "Transfers the values of a continuous, piecewise linear function to the vertices "
+               "after the step.\n\n"
+               "values: (vertices before, ...) of float64, float32, complex128 or complex64, and "
+               "in coarsening also of int32 or int64. Returns a new array, (vertices now, ...). A "
+               "new vertex gets the mean of the ends of its edge. Coarsening keeps the values of "
+               "the remaining vertices, and thereby changes the integral; "
+               "Mesh.transfer_conservatively() preserves it.");
+    def_method(adaptation, "transfer_cells", "values, how='copied'", &transfer_cells,
+               "Transfers values of cells to the cells after the step.\n\n"
+               "values: (cells before, ...) of float64, float32, complex128, complex64, int32 or "
+               "int64. Returns a new array, (cells now, ...). how: 'copied', the value of the "
+               "parent for each child, and in coarsening the mean of the merged cells weighted by "
+               "volume, which preserves the integral, or of integers the most frequent value; "
+               "'averaged', the same for real and complex numbers, with integers refused; "
+               "'divided', the value of the parent divided in proportion to volume, and in "
+               "coarsening the sum. Integers can be copied, and in coarsening summed.");
 }
 
 }  // namespace octetra::python

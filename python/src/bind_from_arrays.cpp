@@ -13,6 +13,7 @@
 
 #include <octetra/distributed/mesh_part.hpp>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "values.hpp"
@@ -20,7 +21,7 @@
 namespace octetra::python {
 namespace {
 
-/// Attributes of shape (n,) or (n, k), into a part that has its points.
+/// Sets the attributes, of shape (n,) or (n, k), of a part whose points are set.
 void take_attributes(od::MeshPart& part, const py::object& given) {
     if (given.is_none()) return;
     const Values values = values_for(given, part.points.size(), "points");
@@ -28,7 +29,7 @@ void take_attributes(od::MeshPart& part, const py::object& given) {
     part.point_attributes = values_of<double>("point_attributes", values.array.attr("ravel")());
 }
 
-/// Numbers of vertices: as given, or as the points stand.
+/// The numbers of the vertices; the indices of the points for None.
 std::vector<std::uint64_t> numbers_of_points(const py::object& given, std::size_t count) {
     if (!given.is_none()) return values_of<std::uint64_t>("vertex_numbers", given);
     std::vector<std::uint64_t> numbers(count);
@@ -36,29 +37,25 @@ std::vector<std::uint64_t> numbers_of_points(const py::object& given, std::size_
     return numbers;
 }
 
-/// As the function of Python takes them.
-struct Given {
-    py::object points, cells;
-    py::object regions, facets, facet_markers, edges, edge_markers;
-    py::object vertex_numbers, point_markers, point_attributes;
-    py::object cell_numbers, facet_numbers, edge_numbers;
-};
-
-od::MeshPart part_of(const Given& given) {
+od::MeshPart part_of(const Arguments& arguments) {
+    const auto [points, cells, regions, facets, facet_markers, edges, edge_markers, vertex_numbers,
+                point_markers, point_attributes, cell_numbers, facet_numbers, edge_numbers,
+                index_base, comm] = arguments.values<15>();
     od::MeshPart part;
-    part.points = values_of<Point>("points", given.points);
-    part.vertex_numbers = numbers_of_points(given.vertex_numbers, part.points.size());
-    part.point_markers = values_of<Marker>("point_markers", given.point_markers);
-    take_attributes(part, given.point_attributes);
-    part.cells = values_of<std::array<std::uint64_t, 4>>("cells", given.cells);
-    part.regions = values_of<Marker>("regions", given.regions);
-    part.cell_numbers = values_of<std::uint64_t>("cell_numbers", given.cell_numbers);
-    part.facets = values_of<std::array<std::uint64_t, 3>>("facets", given.facets);
-    part.facet_markers = values_of<Marker>("facet_markers", given.facet_markers);
-    part.facet_numbers = values_of<std::uint64_t>("facet_numbers", given.facet_numbers);
-    part.edges = values_of<std::array<std::uint64_t, 2>>("edges", given.edges);
-    part.edge_markers = values_of<Marker>("edge_markers", given.edge_markers);
-    part.edge_numbers = values_of<std::uint64_t>("edge_numbers", given.edge_numbers);
+    part.points = values_of<Point>("points", points);
+    part.vertex_numbers = numbers_of_points(vertex_numbers, part.points.size());
+    part.point_markers = values_of<Marker>("point_markers", point_markers);
+    take_attributes(part, point_attributes);
+    part.cells = values_of<std::array<std::uint64_t, 4>>("cells", cells);
+    part.regions = values_of<Marker>("regions", regions);
+    part.cell_numbers = values_of<std::uint64_t>("cell_numbers", cell_numbers);
+    part.facets = values_of<std::array<std::uint64_t, 3>>("facets", facets);
+    part.facet_markers = values_of<Marker>("facet_markers", facet_markers);
+    part.facet_numbers = values_of<std::uint64_t>("facet_numbers", facet_numbers);
+    part.edges = values_of<std::array<std::uint64_t, 2>>("edges", edges);
+    part.edge_markers = values_of<Marker>("edge_markers", edge_markers);
+    part.edge_numbers = values_of<std::uint64_t>("edge_numbers", edge_numbers);
+    part.index_base = integer_from<std::uint32_t>("index_base", index_base);
     return part;
 }
 
@@ -69,20 +66,19 @@ std::uint64_t hash_of(const std::vector<Point>& points) {
     return std::hash<std::string_view>{}({bytes, points.size() * sizeof(Point)});
 }
 
-/// Collective. Are there two ranks with different hashes, but for 0?
+/// Collective. Do two ranks have different hashes, apart from 0?
 bool have_different_points(const od::Communicator& processes, std::uint64_t hash) {
     const std::uint64_t greatest = processes.max(hash);
     return greatest != ~processes.max(hash == 0 ? ~greatest : ~hash);
 }
 
-MeshPointer mesh_of(const Given& given, std::uint32_t index_base, const py::object& comm) {
-    const od::Communicator processes = processes_of(comm);
+MeshPointer mesh_of(const Arguments& arguments) {
+    constexpr std::size_t no_position = ~std::size_t{0};  // a keyword alone
+    const od::Communicator processes = processes_of(arguments.find("comm", no_position));
     od::MeshPart part;
-    convert_on_each(processes, [&] {
-        part = part_of(given);
-        part.index_base = index_base;
-    });
-    const std::uint64_t hash = given.vertex_numbers.is_none() ? hash_of(part.points) : 0;
+    convert_on_each(processes, [&] { part = part_of(arguments); });
+    const bool are_numbered = !arguments.find("vertex_numbers", no_position).is_none();
+    const std::uint64_t hash = are_numbered ? 0 : hash_of(part.points);
     return without_gil([&] {
         try {
             return std::make_shared<Mesh>(od::AdaptiveMesh::from_parts(processes, std::move(part)));
@@ -100,38 +96,25 @@ MeshPointer mesh_of(const Given& given, std::uint32_t index_base, const py::obje
 }  // namespace
 
 void bind_from_arrays(py::module_& module) {
-    const auto optional = [](const char* name) { return py::arg(name) = py::none(); };
-    module.def(
-        "from_arrays",
-        [](py::object points, py::object cells, py::object regions, py::object facets,
-           py::object facet_markers, py::object edges, py::object edge_markers,
-           py::object vertex_numbers, py::object point_markers, py::object point_attributes,
-           py::object cell_numbers, py::object facet_numbers, py::object edge_numbers,
-           std::uint32_t index_base, const py::object& comm) {
-            return mesh_of(
-                {std::move(points), std::move(cells), std::move(regions), std::move(facets),
-                 std::move(facet_markers), std::move(edges), std::move(edge_markers),
-                 std::move(vertex_numbers), std::move(point_markers), std::move(point_attributes),
-                 std::move(cell_numbers), std::move(facet_numbers), std::move(edge_numbers)},
-                index_base, comm);
-        },
-        py::arg("points"), py::arg("cells"), py::kw_only(), optional("regions"), optional("facets"),
-        optional("facet_markers"), optional("edges"), optional("edge_markers"),
-        optional("vertex_numbers"), optional("point_markers"), optional("point_attributes"),
-        optional("cell_numbers"), optional("facet_numbers"), optional("edge_numbers"),
-        py::arg("index_base") = 0, optional("comm"),
-        "Collective. A mesh of which each rank of comm passes a part; cells stay where they "
-        "are.\n\n"
-        "points: (n, 3). cells: (m, 4), by number of the whole mesh, positively oriented. regions: "
-        "(m,). facets, edges: tagged ones of this rank's cells, (k, 3) and (k, 2), with their "
-        "markers, (k,). vertex_numbers: (n,), of the whole mesh, of `points`; None: as they stand, "
-        "0 .. n-1, where all ranks pass all points or there is one rank. point_markers: (n,). "
-        "point_attributes: (n,) or (n, a). cell_numbers, facet_numbers, edge_numbers: of the whole "
-        "mesh, ascending; None on all ranks: the first rank's come first. index_base: what files "
-        "call the first vertex, 0 or 1. A rank without a part passes empty arrays. InputError "
-        "where "
-        "ranks contradict each other, also in points, markers and attributes of a vertex; not "
-        "checked is whether two ranks pass the same cell, which verify() finds.");
+    def_function(
+        module, "from_arrays",
+        "points, cells, *, regions=None, facets=None, facet_markers=None, edges=None, "
+        "edge_markers=None, vertex_numbers=None, point_markers=None, point_attributes=None, "
+        "cell_numbers=None, facet_numbers=None, edge_numbers=None, index_base=0, comm=None",
+        &mesh_of,
+        "Collective. Creates a Mesh from arrays, of which each rank of comm passes its part. Every "
+        "cell stays on the rank that passes it; a rank without cells passes empty arrays.\n\n"
+        "points: (n, 3). cells: (m, 4), numbers of vertices in the whole mesh, positively "
+        "oriented. regions: (m,). facets, edges: the tagged ones of this rank's cells, (k, 3) and "
+        "(k, 2). facet_markers, edge_markers: (k,). vertex_numbers: (n,), the numbers of `points` "
+        "in the whole mesh; None means 0 to n - 1, for one rank, or if all ranks pass all points. "
+        "point_markers: (n,). point_attributes: (n,) or (n, a). cell_numbers, facet_numbers, "
+        "edge_numbers: numbers in the whole mesh, ascending; None on all ranks numbers them in the "
+        "order of ranks. index_base: the number of the first vertex in files, 0 or 1. comm: an "
+        "mpi4py communicator; None means all ranks.\n\n"
+        "Raises InputError if ranks contradict each other, also in the coordinates, marker or "
+        "attributes of a vertex. Not detected is a cell that two ranks pass; Mesh.verify() detects "
+        "it.");
 }
 
 }  // namespace octetra::python

@@ -4,6 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "values.hpp"
@@ -17,21 +20,22 @@ struct Ghosts {
 };
 using GhostsPointer = std::shared_ptr<Ghosts>;
 
-GhostsPointer ghosts(Mesh& mesh, const std::string& name) {
+od::GhostsBy ghosts_by(const std::string& name) {
+    if (name == "face") return od::GhostsBy::face;
+    if (name == "vertex") return od::GhostsBy::vertex;
+    throw InputError(fmt::format("by must be 'face' or 'vertex', not '{}'", name));
+}
+
+GhostsPointer ghosts(Mesh& mesh, const Arguments& arguments) {
     auto by = od::GhostsBy::face;
-    convert_on_each(mesh.processes(), [&] {
-        if (name == "vertex") {
-            by = od::GhostsBy::vertex;
-        } else if (name != "face") {
-            throw InputError("by: 'face' or 'vertex'");
-        }
-    });
+    convert_on_each(mesh.processes(),
+                    [&] { by = ghosts_by(string_from("by", arguments.values<1>()[0])); });
     return mesh.ask([&](const od::AdaptiveMesh& now) {
         return std::make_shared<Ghosts>(Ghosts{now.processes(), now.ghosts(by)});
     });
 }
 
-/// Of each ghost a member of its Owner.
+/// One member of the owner of each ghost.
 template <class T>
 py::array of_owners(const Ghosts& ghosts, T od::GhostLayer::Owner::*member) {
     std::vector<T> all;
@@ -39,9 +43,10 @@ py::array of_owners(const Ghosts& ghosts, T od::GhostLayer::Owner::*member) {
     return array_of(std::move(all));
 }
 
-py::array ghost_values(const Ghosts& ghosts, const py::object& given) {
-    const Values own =
-        values_on_each(ghosts.processes, given, ghosts.layer.own_cell_count, "cells");
+py::array ghost_values(const Ghosts& ghosts, const Arguments& arguments) {
+    const Values own = values_on_each(ghosts.processes, [&] {
+        return values_for(arguments.values<1>()[0], ghosts.layer.own_cell_count, "cells");
+    });
     return own.like(without_gil([&] {
         const auto* bytes = static_cast<const std::byte*>(own.array.data());
         return ghosts.layer.values(ghosts.processes, std::span(bytes, own.count * own.bytes()),
@@ -58,30 +63,33 @@ void bind_ghosts(py::module_& module, MeshClass& mesh) {
         };
     };
     using Owner = od::GhostLayer::Owner;
-    py::class_<Ghosts, GhostsPointer>(
+    py::class_<Ghosts, GhostsPointer> made(
         module, "Ghosts",
-        "A layer of other ranks' cells around this one's: a picture of the mesh as it was.")
-        .def_property_readonly("cells", list(&od::GhostLayer::cells),
-                               "int32 (ghosts, 4): their vertices; those of `points` are numbered "
-                               "behind this rank's own.")
+        "Copies of the cells of other ranks around this rank's cells, as the mesh was at the time "
+        "of the call.");
+    made.def_property_readonly("cells", list(&od::GhostLayer::cells),
+                               "int32 (ghosts, 4): the vertices of the ghosts. The vertices in "
+                               "`points` are numbered after this rank's own.")
         .def_property_readonly(
             "owner_ranks", [](const Ghosts& all) { return of_owners(all, &Owner::rank); },
-            "int32 (ghosts,): the ranks that have them.")
+            "int32 (ghosts,): the rank that owns each ghost.")
         .def_property_readonly(
             "owner_cells", [](const Ghosts& all) { return of_owners(all, &Owner::cell); },
-            "int32 (ghosts,): their numbers there.")
+            "int32 (ghosts,): the number of each ghost on the rank that owns it.")
         .def_property_readonly("regions", list(&od::GhostLayer::regions),
-                               "int32 (ghosts,), or (0,) where the input has none.")
+                               "int32 (ghosts,): region tags, or (0,) if the input has none.")
         .def_property_readonly("points", list(&od::GhostLayer::points),
-                               "float64 (n, 3): vertices that this rank does not have.")
+                               "float64 (n, 3): the coordinates of the vertices of ghosts that "
+                               "this rank does not have.")
         .def_property_readonly("vertex_numbers", list(&od::GhostLayer::vertex_numbers),
-                               "int64 (n,): their numbers in the whole mesh.")
-        .def(
-            "values", &ghost_values, py::arg("values"),
-            "Collective. Values of this rank's cells, (cells, ...) of any numbers, to those of the "
-            "ghosts, (ghosts, ...), a new array.");
-    mesh.def("ghosts", &ghosts, py::arg("by") = "face",
-             "Collective. Cells of other ranks that have a 'face', or a 'vertex', of this rank's.");
+                               "int64 (n,): the numbers of `points` in the whole mesh.");
+    def_method(made, "values", "values", &ghost_values,
+               "Collective. Transfers values of this rank's cells, (cells, ...) of any numbers, to "
+               "the ghosts on other ranks. Returns the values of this rank's ghosts, a new array "
+               "(ghosts, ...).");
+    def_method(mesh, "ghosts", "by='face'", &ghosts,
+               "Collective. Ghosts: the cells of other ranks that have a face, or with by='vertex' "
+               "a vertex, in common with a cell of this rank.");
 }
 
 }  // namespace octetra::python

@@ -1,17 +1,18 @@
-#include <optional>
+#include <array>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
-#include <pybind11/stl.h>
 
 #include <octetra/core/check_selection.hpp>
 #include <octetra/core/error.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/estimator_marks.hpp>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bind.hpp"
 
@@ -21,24 +22,36 @@ namespace {
 using Estimate = std::vector<std::uint8_t> (*)(const od::Communicator&, std::span<const double>,
                                                double);
 
-py::array marks_by(Estimate estimate, Mesh& mesh, const py::object& given, double share) {
+/// The mesh that is the first argument.
+Mesh& mesh_in(const Arguments& arguments) {
+    return instance_from<Mesh>("mesh", arguments.find("mesh", 0), "an octetra.Mesh");
+}
+
+/// Collective. `parameter` is the name of the parameter behind mesh and indicators.
+py::array marks_by(Estimate estimate, const char* parameter, const Arguments& arguments) {
+    Mesh& mesh = mesh_in(arguments);
     std::vector<double> indicators;
+    double share = 0;
     convert_on_each(mesh.processes(), [&] {
+        const auto [itself, given, number] = arguments.values<3>();
         indicators = values_of<double>("indicators", given);
         if (indicators.size() != mesh.cell_count()) {
-            throw InputError(std::to_string(indicators.size()) + " indicators for " +
-                             std::to_string(mesh.cell_count()) + " cells");
+            throw InputError(
+                fmt::format("{} indicators for {} cells", indicators.size(), mesh.cell_count()));
         }
+        share = number_from(parameter, number);
     });
     return booleans(mesh.ask(
         [&](const od::AdaptiveMesh& now) { return estimate(now.processes(), indicators, share); }));
 }
 
-Point point_of(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
+Point point_from(const char* name, const py::handle& given) {
+    const std::vector<double> numbers = values_of<double>(name, given);
+    if (numbers.size() != 3) refuse(name, "three numbers", given);
+    return {numbers[0], numbers[1], numbers[2]};
+}
 
-using Coordinates = std::array<double, 3>;
-
-/// What the criteria of the command line mark of this rank's cells.
+/// Marks of this rank's cells by criteria of the command line.
 py::array marks_of_selection(const Mesh& mesh, const Selection& selection) {
     check(selection);
     const od::AdaptiveMesh& now = mesh.now();
@@ -55,10 +68,12 @@ py::array marks_of_selection(const Mesh& mesh, const Selection& selection) {
     return booleans(std::move(bytes));
 }
 
-/// The tag itself, or that of the group of cells with this name.
-Marker region_tag(const Mesh& mesh, const std::variant<Marker, std::string>& given) {
-    if (const Marker* const tag = std::get_if<Marker>(&given)) return *tag;
-    const auto& name = std::get<std::string>(given);
+/// The tag, or that of the group of cells with this name.
+Marker region_tag(const Mesh& mesh, const py::handle& given) {
+    if (!py::isinstance<py::str>(given)) {
+        return integer_from<Marker>("tag", given, ", or the name of a group of cells");
+    }
+    const std::string name = string_from("tag", given);
     std::string known;
     for (const GroupName& group : mesh.now().group_names()) {
         if (group.dimension != 3) continue;
@@ -66,73 +81,74 @@ Marker region_tag(const Mesh& mesh, const std::variant<Marker, std::string>& giv
         known += (known.empty() ? "" : ", ") + group.name;
     }
     throw InputError(
-        known.empty() ? fmt::format("no group of cells of this mesh has a name, as '{}'", name)
-                      : fmt::format("no group of cells is called '{}'; there are {}", name, known));
+        known.empty()
+            ? fmt::format("there is no group '{}': no group of cells of this mesh has a name", name)
+            : fmt::format("there is no group '{}' of cells; the groups are {}", name, known));
+}
+
+/// One criterion, whose parameters are the mesh and `count` others, which selection() converts.
+template <std::size_t count>
+auto criterion(auto selection) {
+    return [selection](const Arguments& arguments) {
+        const Mesh& mesh = mesh_in(arguments);
+        return marks_of_selection(mesh, selection(mesh, arguments.values<count + 1>()));
+    };
 }
 
 void bind_criteria(py::module_& mark) {
-    mark.def(
-        "sphere",
-        [](const Mesh& mesh, const Coordinates& centre, double radius) {
-            return marks_of_selection(mesh, {.spheres = {{point_of(centre), radius}}});
-        },
-        py::arg("mesh"), py::arg("centre"), py::arg("radius"),
-        "bool (cells,): is the centroid nearer to the centre than the radius? As --sphere.");
-    mark.def(
-        "box",
-        [](const Mesh& mesh, const Coordinates& low, const Coordinates& high) {
-            return marks_of_selection(mesh, {.boxes = {{point_of(low), point_of(high)}}});
-        },
-        py::arg("mesh"), py::arg("low"), py::arg("high"),
-        "bool (cells,): is the centroid in the closed box? As --box.");
-    mark.def(
-        "region",
-        [](const Mesh& mesh, const std::variant<Marker, std::string>& tag) {
-            return marks_of_selection(mesh, {.regions = {region_tag(mesh, tag)}});
-        },
-        py::arg("mesh"), py::arg("tag"),
-        "bool (cells,): is this the region tag? Or of the group with this name, where the file has "
-        "names (.msh). As --region.");
-    mark.def(
-        "random",
-        [](const Mesh& mesh, double fraction, std::uint64_t seed) {
-            return marks_of_selection(mesh, {.random = RandomShare{fraction, seed}});
-        },
-        py::arg("mesh"), py::arg("fraction"), py::arg("seed") = 0,
-        "bool (cells,): about this share of the cells, the same on any number of ranks. As "
-        "--random.");
-    mark.def(
-        "larger_than",
-        [](const Mesh& mesh, double volume) {
-            return marks_of_selection(mesh, {.max_volume = volume});
-        },
-        py::arg("mesh"), py::arg("volume"),
-        "bool (cells,): is the volume greater than this? As --max-volume.");
+    def_function(
+        mark, "sphere", "mesh, centre, radius",
+        criterion<2>([](const Mesh&, const auto& given) -> Selection {
+            return {.spheres = {{point_from("centre", given[1]), number_from("radius", given[2])}}};
+        }),
+        "bool (cells,): marks the cells whose centroid is nearer to `centre` than `radius`. "
+        "As --sphere.");
+    def_function(
+        mark, "box", "mesh, low, high",
+        criterion<2>([](const Mesh&, const auto& given) -> Selection {
+            return {.boxes = {{point_from("low", given[1]), point_from("high", given[2])}}};
+        }),
+        "bool (cells,): marks the cells whose centroid is in the closed box. As --box.");
+    def_function(mark, "region", "mesh, tag",
+                 criterion<1>([](const Mesh& mesh, const auto& given) -> Selection {
+                     return {.regions = {region_tag(mesh, given[1])}};
+                 }),
+                 "bool (cells,): marks the cells with a region tag. tag: an integer, or the name "
+                 "of a group of cells if the input file has names (.msh). As --region.");
+    def_function(mark, "random", "mesh, fraction, seed=0",
+                 criterion<2>([](const Mesh&, const auto& given) -> Selection {
+                     return {.random = RandomShare{number_from("fraction", given[1]),
+                                                   integer_from<std::uint64_t>("seed", given[2])}};
+                 }),
+                 "bool (cells,): marks about this fraction of the cells, the same cells on any "
+                 "number of ranks. As --random.");
+    def_function(mark, "larger_than", "mesh, volume",
+                 criterion<1>([](const Mesh&, const auto& given) -> Selection {
+                     return {.max_volume = number_from("volume", given[1])};
+                 }),
+                 "bool (cells,): marks the cells with a greater volume. As --max-volume.");
 }
 
 }  // namespace
 
 void bind_marks(py::module_& module) {
-    py::module_ mark = module.def_submodule("mark", "Which cells a step is to refine or coarsen.");
-    const auto by = [](Estimate estimate) {
-        return [=](Mesh& mesh, const py::object& indicators, double share) {
-            return marks_by(estimate, mesh, indicators, share);
-        };
+    py::module_ mark = module.def_submodule("mark", "Marks of cells to refine or coarsen.");
+    const auto by = [](Estimate estimate, const char* parameter) {
+        return [=](const Arguments& arguments) { return marks_by(estimate, parameter, arguments); };
     };
-    mark.def("doerfler", by(&od::mark_bulk), py::arg("mesh"), py::arg("indicators"),
-             py::arg("theta") = 0.5,
-             "Collective. bool (cells,): the cells with the largest indicators, as few as have the "
-             "share theta of the sum of all, and those that tie with the last one.\n\n"
-             "indicators: (cells,), at least 0: squares, eta_T^2. 0 < theta <= 1. With equal "
-             "indicators the same cells are marked on any number of ranks.");
-    mark.def("maximum", by(&od::mark_maximum), py::arg("mesh"), py::arg("indicators"),
-             py::arg("share") = 0.5,
-             "Collective. bool (cells,): the cells whose indicator is at least share * (the "
-             "greatest of all).");
-    mark.def("fraction", by(&od::mark_fraction), py::arg("mesh"), py::arg("indicators"),
-             py::arg("fraction") = 0.1,
-             "Collective. bool (cells,): this fraction of the cells, those with the largest "
-             "indicators, and those that tie with the last one.");
+    def_function(mark, "doerfler", "mesh, indicators, theta=0.5", by(&od::mark_bulk, "theta"),
+                 "Collective. bool (cells,): bulk marking. Marks the cells with the largest "
+                 "indicators, as few as have the fraction theta of the sum of all indicators, and "
+                 "all cells that tie with the last one.\n\n"
+                 "indicators: (cells,), at least 0: squares, eta_T^2. theta: greater than 0, at "
+                 "most 1. Equal indicators mark the same cells on any number of ranks.");
+    def_function(mark, "maximum", "mesh, indicators, share=0.5", by(&od::mark_maximum, "share"),
+                 "Collective. bool (cells,): marks the cells whose indicator is at least share "
+                 "times the greatest of the whole mesh.");
+    def_function(mark, "fraction", "mesh, indicators, fraction=0.1",
+                 by(&od::mark_fraction, "fraction"),
+                 "Collective. bool (cells,): marks this fraction of the cells, those with the "
+                 "largest indicators, and all cells that tie with the last one.");
     bind_criteria(mark);
 }
 

@@ -1,5 +1,7 @@
 #include <utility>
+#include <vector>
 
+#include "arguments.hpp"
 #include "bind.hpp"
 #include "migration.hpp"
 #include "values.hpp"
@@ -7,22 +9,23 @@
 namespace octetra::python {
 namespace {
 
-/// Collective.
-py::array moved(const Moved& move, const py::object& given, std::size_t count, const char* what,
-                auto&& bring) {
-    const Values values = values_on_each(move.processes, given, count, what);
-    return values.like(without_gil([&] { return bring(values.copy(), values.bytes()); }));
+/// Collective. The result of transfer(bytes, bytes of an entity).
+py::array moved(const Moved& move, const Arguments& arguments, std::size_t count,
+                const char* entities, auto&& transfer) {
+    const Values values = values_on_each(
+        move.processes, [&] { return values_for(arguments.values<1>()[0], count, entities); });
+    return values.like(without_gil([&] { return transfer(values.copy(), values.bytes()); }));
 }
 
-py::array moved_cells(const Moved& move, const py::object& values) {
-    return moved(move, values, move.cells_before, "cells before",
+py::array moved_cells(const Moved& move, const Arguments& arguments) {
+    return moved(move, arguments, move.cells_before, "cells before",
                  [&](std::vector<std::byte> bytes, std::size_t size) {
                      return move.migration.cells(std::move(bytes), size);
                  });
 }
 
-py::array moved_vertices(const Moved& move, const py::object& values) {
-    return moved(move, values, move.vertices_before, "vertices before",
+py::array moved_vertices(const Moved& move, const Arguments& arguments) {
+    return moved(move, arguments, move.vertices_before, "vertices before",
                  [&](std::vector<std::byte> bytes, std::size_t size) {
                      return move.migration.vertices(std::move(bytes), size);
                  });
@@ -31,19 +34,20 @@ py::array moved_vertices(const Moved& move, const py::object& values) {
 }  // namespace
 
 void bind_migration(py::module_& module) {
-    py::class_<Moved>(module, "Migration",
-                      "Where the cells of a mesh went when they moved between ranks; brings along "
-                      "what a program has for each. It stays valid whatever becomes of the mesh.")
-        .def_property_readonly(
-            "changed", [](const Moved& move) { return move.migration.changed(); },
-            "Has anything moved, on any rank? The same on all.")
-        .def("cells", &moved_cells, py::arg("values"),
-             "Collective. Values of this rank's cells as they were, (cells before, ...) of any "
-             "numbers, to those of the cells as they are, (cells now, ...), a new array. Types and "
-             "shapes but for the first number are the same on all ranks.")
-        .def("vertices", &moved_vertices, py::arg("values"),
-             "Collective. The same of vertices, of which all ranks that have one have the same "
-             "values.");
+    py::class_<Moved> migration(
+        module, "Migration",
+        "The movement of cells between ranks by one call. It transfers values of cells and "
+        "vertices to the ranks that have them now, and remains valid when the mesh changes.");
+    migration.def_property_readonly(
+        "changed", [](const Moved& move) { return move.migration.changed(); },
+        "bool: whether any cell has moved, on any rank. The same on all ranks.");
+    def_method(migration, "cells", "values", &moved_cells,
+               "Collective. Transfers values of this rank's cells before, (cells before, ...) of "
+               "any numbers, to the cells now: a new array, (cells now, ...). Types, and shapes "
+               "but for the first dimension, must be the same on all ranks.");
+    def_method(migration, "vertices", "values", &moved_vertices,
+               "Collective. The same for values of vertices, which must be equal on all ranks "
+               "that have the vertex.");
 }
 
 }  // namespace octetra::python

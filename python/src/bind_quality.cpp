@@ -7,15 +7,17 @@
 #include <octetra/quality/mesh_statistics.hpp>
 #include <octetra/quality/shape.hpp>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bind.hpp"
 
 namespace octetra::python {
 namespace {
 
-/// measure(corners) of each of this rank's cells.
+/// measure(corners) for each of this rank's cells.
 template <class T>
-py::array of_cells(const Mesh& mesh, T (*measure)(const Corners&)) {
+py::array of_cells(const Arguments& arguments, T (*measure)(const Corners&)) {
+    const Mesh& mesh = instance_from<Mesh>("mesh", arguments.values<1>()[0], "an octetra.Mesh");
     const auto points = mesh.now().points();
     std::vector<T> all;
     all.reserve(mesh.cell_count());
@@ -63,50 +65,45 @@ py::dict dict_of(const quality::MeshStatistics& found) {
     return all;
 }
 
-/// Collective. The first process measures the whole mesh, and tells the others.
-py::object statistics(Mesh& mesh) {
-    std::vector<char> told;
+/// Collective. The first rank measures the whole mesh and broadcasts the result.
+py::object statistics(const Arguments& arguments) {
+    Mesh& mesh = instance_from<Mesh>("mesh", arguments.find("mesh", 0), "an octetra.Mesh");
+    std::vector<char> pickled;
     const py::module_ pickle = py::module_::import("pickle");
-    mesh.ask([&](const od::AdaptiveMesh& now) {
+    mesh.ask(arguments, [&](const od::AdaptiveMesh& now) {
         const octetra::Mesh whole = now.collect();
         now.processes().on_first([&] {
             const auto found = quality::measure(whole);
             const py::gil_scoped_acquire acquired;
             const auto bytes = pickle.attr("dumps")(dict_of(found)).cast<std::string>();
-            told.assign(bytes.begin(), bytes.end());
+            pickled.assign(bytes.begin(), bytes.end());
         });
-        now.processes().broadcast(told);
+        now.processes().broadcast(pickled);
     });
-    return pickle.attr("loads")(py::bytes(told.data(), told.size()));
+    return pickle.attr("loads")(py::bytes(pickled.data(), pickled.size()));
 }
 
 }  // namespace
 
 void bind_quality(py::module_& module) {
-    py::module_ quality = module.def_submodule("quality", "Shapes of cells.");
-    quality.def(
-        "dihedral_angles",
-        [](const Mesh& mesh) { return of_cells(mesh, &quality::dihedral_angles); }, py::arg("mesh"),
-        "float64 (cells, 6): the angles at the edges 01, 02, 03, 12, 13, 23 of this rank's cells, "
-        "in degrees.");
-    quality.def(
-        "mean_ratio", [](const Mesh& mesh) { return of_cells(mesh, &quality::mean_ratio); },
-        py::arg("mesh"),
-        "float64 (cells,): the mean ratio eta of this rank's cells, 1 for a regular tetrahedron, 0 "
-        "for a flat one.");
-    quality.def(
-        "volume",
-        [](const Mesh& mesh) {
-            return of_cells(
-                mesh, +[](const Corners& corners) { return volume(corners); });
-        },
-        py::arg("mesh"), "float64 (cells,): the volumes of this rank's cells.");
-    quality.def(
-        "statistics", &statistics, py::arg("mesh"),
-        "Collective. What `octetra info` tells of the whole mesh, on all ranks; the first "
-        "one must have the memory for it. Ranges are (least, greatest), or None where there "
-        "is no cell; regions, facet_markers and edge_markers are {tag: (count, volume, area or "
-        "length)}; angles are in degrees.");
+    py::module_ quality = module.def_submodule("quality", "Measures of the shape of cells.");
+    const auto measure = [](auto function) {
+        return [=](const Arguments& arguments) { return of_cells(arguments, function); };
+    };
+    def_function(quality, "dihedral_angles", "mesh", measure(&quality::dihedral_angles),
+                 "float64 (cells, 6): the dihedral angles at the edges 01, 02, 03, 12, 13, 23 of "
+                 "this rank's cells, in degrees.");
+    def_function(quality, "mean_ratio", "mesh", measure(&quality::mean_ratio),
+                 "float64 (cells,): the mean ratio eta of this rank's cells: 1 for a regular "
+                 "tetrahedron, 0 for a flat one.");
+    def_function(quality, "volume", "mesh",
+                 measure(+[](const Corners& corners) { return volume(corners); }),
+                 "float64 (cells,): the volumes of this rank's cells.");
+    def_function(quality, "statistics", "mesh", &statistics,
+                 "Collective. dict: the statistics of the whole mesh that `octetra info` prints, "
+                 "on all ranks; the first rank needs the memory for the whole mesh. Ranges are "
+                 "(minimum, maximum), or None if there is no cell; regions, facet_markers and "
+                 "edge_markers are {tag: (count, volume, area or length)}; angles are in degrees.");
 }
 
 }  // namespace octetra::python

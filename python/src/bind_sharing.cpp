@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include <octetra/distributed/exchange.hpp>
 #include <octetra/distributed/index_map.hpp>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "shared_values.hpp"
@@ -16,6 +18,22 @@
 
 namespace octetra::python {
 namespace {
+
+/// One entity, for messages.
+const char* entity_of(const SharedEntities& of) {
+    constexpr std::array names{"vertex", "edge", "face"};
+    return names[of.sharing.index()];
+}
+
+/// Collective. The values of each rank; `detail` as for values_on_each().
+Values shared_values(const SharedEntities& of, const std::function<py::object()>& convert,
+                     const std::function<std::string(const Values&)>& detail = {}) {
+    return values_on_each(
+        of.processes, [&] { return values_for(convert(), of.count, "entities"); },
+        [&](const Values& own) {
+            return fmt::format(" for each {}{}", entity_of(of), detail ? detail(own) : "");
+        });
+}
 
 /// The rank that owns each entity.
 py::array owners(const SharedEntities& of) {
@@ -34,7 +52,8 @@ py::array shared(const SharedEntities& of) {
         of.sharing);
 }
 
-py::array sharers(const SharedEntities& of, std::int64_t number) {
+py::array sharers(const SharedEntities& of, const Arguments& arguments) {
+    const auto number = integer_from<std::int64_t>("entity", arguments.values<1>()[0]);
     if (number < 0 || static_cast<std::uint64_t>(number) >= of.count) {
         throw py::index_error(fmt::format("entity {}, and this rank has {}", number, of.count));
     }
@@ -68,8 +87,8 @@ py::array exchanged(const SharedEntities& of, const Values& values, auto&& excha
     }));
 }
 
-py::array update_copies(const SharedEntities& of, const py::object& given) {
-    const Values values = values_on_each(of.processes, given, of.count, "entities");
+py::array update_copies(const SharedEntities& of, const Arguments& arguments) {
+    const Values values = shared_values(of, [&] { return arguments.values<1>()[0]; });
     const auto update = [&](const auto& sharing, auto& copy, std::size_t components) {
         od::update_copies(of.processes, sharing, of.count, copy, components);
     };
@@ -83,13 +102,13 @@ enum class Operation { sum, min, max, either };
 Operation operation_for(const Values& values, const std::string& name) {
     if (is_boolean(values)) {
         if (name == "or") return Operation::either;
-        throw InputError("operation: booleans are combined by 'or' alone");
+        throw InputError("operation must be 'or' for booleans");
     }
     with_number_type(values.array, [](auto) {});
     if (name == "sum") return Operation::sum;
     if (name == "min") return Operation::min;
     if (name == "max") return Operation::max;
-    throw InputError("operation: 'sum', 'min' or 'max', and of booleans 'or'");
+    throw InputError("operation must be 'sum', 'min' or 'max', or 'or' for booleans");
 }
 
 template <class T>
@@ -98,10 +117,17 @@ T combined(Operation operation, T a, T b) {
     return operation == Operation::min ? std::min(a, b) : std::max(a, b);
 }
 
-py::array combine(const SharedEntities& of, const py::object& given, const std::string& name) {
+py::array combine(const SharedEntities& of, const Arguments& arguments) {
     auto operation = Operation::sum;
-    const Values values =
-        values_on_each(of.processes, given, of.count, "entities", [&](const Values& own) {
+    std::string name;
+    const Values values = shared_values(
+        of,
+        [&] {
+            const auto [given, operation_name] = arguments.values<2>();
+            name = string_from("operation", operation_name);
+            return given;
+        },
+        [&](const Values& own) {
             operation = operation_for(own, name);
             return fmt::format(", combined by '{}'", name);
         });
@@ -122,7 +148,7 @@ py::array combine(const SharedEntities& of, const py::object& given, const std::
     });
 }
 
-/// An IndexMap of entities of any kind.
+/// An index map of entities of any kind.
 struct IndexMap {
     std::vector<std::uint32_t> entities;
     std::size_t owned_count = 0;
@@ -141,7 +167,8 @@ struct IndexMap {
 };
 using IndexMapPointer = std::shared_ptr<IndexMap>;
 
-IndexMapPointer index_map(const SharedEntities& of) {
+IndexMapPointer index_map(const SharedEntities& of, const Arguments& arguments) {
+    convert_on_each(of.processes, [&] { arguments.check(); });
     return without_gil([&] {
         return std::visit(
             [&](const auto& sharing) {
@@ -160,17 +187,18 @@ void bind_index_map(py::module_& module) {
     };
     py::class_<IndexMap, IndexMapPointer>(
         module, "IndexMap",
-        "A numbering in which what a rank owns has consecutive numbers, rank by rank, as vectors "
-        "and matrices of PETSc and DOLFINx have. It depends on the partition, unlike the numbers "
-        "of files.")
+        "A numbering in which the entities that a rank owns have consecutive numbers, in the order "
+        "of ranks, as vectors and matrices of PETSc and DOLFINx need it. It depends on the "
+        "partition, in contrast to the numbers in files.")
         .def_property_readonly("entities", list(&IndexMap::entities),
-                               "int32 (n,): this rank's own first, ascending, then the copies, by "
-                               "the rank of their owner.")
-        .def_readonly("owned_count", &IndexMap::owned_count, "How many are this rank's own.")
+                               "int32 (n,): local numbers of the owned entities, ascending, and "
+                               "then of the copies, ordered by the rank of their owner.")
+        .def_readonly("owned_count", &IndexMap::owned_count,
+                      "int: the number of entities that this rank owns.")
         .def_property_readonly("copy_owners", list(&IndexMap::copy_owners),
                                "int32 (n - owned_count,): the owners of entities[owned_count:].")
         .def_property_readonly("numbers", list(&IndexMap::numbers),
-                               "int64 (n,): the number of each, by local number.")
+                               "int64 (n,): the number of each entity, indexed by local number.")
         .def_property_readonly("rank_begin", list(&IndexMap::rank_begin),
                                "int64 (ranks + 1,): rank r owns the numbers rank_begin[r] to "
                                "rank_begin[r + 1] - 1.");
@@ -180,39 +208,42 @@ void bind_index_map(py::module_& module) {
 
 void bind_sharing(py::module_& module, MeshClass& mesh) {
     bind_index_map(module);
-    py::class_<SharedEntities>(
+    py::class_<SharedEntities> sharing(
         module, "Sharing",
-        "Which vertices, edges or faces of this rank others have, too: a picture of the mesh as it "
-        "was. Each entity has one owner among the ranks that have it.")
+        "The vertices, edges or faces that this rank shares with other ranks, and their owners. "
+        "Each entity has one owner among the ranks that have it. A sharing describes the mesh at "
+        "the time of the call.");
+    sharing
         .def_property_readonly("owners", &owners,
-                               "int32 (n,): the rank that owns each entity. Made when asked for.")
+                               "int32 (n,): the rank that owns each entity. Computed on access.")
         .def_property_readonly("shared", &shared,
-                               "int32 (k,): those that other ranks have, too; ascending.")
+                               "int32 (k,): the entities that other ranks have as well, ascending.")
         .def_property_readonly("with_rank", &with_each,
-                               "{rank: int32 (k,)}: what each other rank has, too; both have it "
-                               "listed in the same order.")
-        .def("sharers", &sharers, py::arg("entity"),
-             "int32 (k,): the other ranks that have this one, ascending. IndexError if this rank "
-             "has no such entity.")
-        .def("index_map", &index_map,
-             "Collective. Consecutive numbers for what each rank owns, and the numbers of copies.")
-        .def("update_copies", &update_copies, py::arg("values"),
-             "Collective. Values (n, ...) of any numbers, of which every copy has got its owner's: "
-             "a new array.")
-        .def(
-            "combine", &combine, py::arg("values"), py::arg("operation") = "sum",
-            "Collective. Values (n, ...) of float64, float32, int32 or int64, combined over all "
-            "ranks that have an entity, the same on all of them: what assembly needs. A new array. "
-            "operation: 'sum', 'min' or 'max'; of booleans 'or', true on all ranks that have the "
-            "entity where it is true on one.");
-    mesh.def(
-        "cell_index_map",
-        [](Mesh& m) {
-            return m.ask([](const od::AdaptiveMesh& now) {
+                               "{rank: int32 (k,)}: the entities shared with each other rank, in "
+                               "the same order on both ranks.");
+    def_method(sharing, "sharers", "entity", &sharers,
+               "int32 (k,): the other ranks that have an entity, ascending. Raises IndexError if "
+               "this rank has no such entity.");
+    def_method(sharing, "index_map", "", &index_map,
+               "Collective. An IndexMap: consecutive numbers for the entities that each rank owns, "
+               "and the numbers of copies.");
+    def_method(sharing, "update_copies", "values", &update_copies,
+               "Collective. Sets the values of every copy to those of the owner. values: (n, ...) "
+               "of any numbers. Returns a new array.");
+    def_method(sharing, "combine", "values, operation='sum'", &combine,
+               "Collective. Combines the values of all copies of each entity, as assembly needs; "
+               "the result is the same on all ranks that have the entity. values: (n, ...) of "
+               "float64, float32, int32, int64 or bool. operation: 'sum', 'min' or 'max' for "
+               "numbers, 'or' for booleans. Returns a new array.");
+    def_method(
+        mesh, "cell_index_map", "",
+        [](Mesh& m, const Arguments& arguments) {
+            return m.ask(arguments, [](const od::AdaptiveMesh& now) {
                 return std::make_shared<IndexMap>(now.cell_index_map());
             });
         },
-        "Collective. Consecutive numbers for this rank's cells, of which there are no copies.");
+        "Collective. An IndexMap: consecutive numbers for this rank's cells, which have no "
+        "copies.");
     mesh.def_property_readonly(
         "vertex_sharing",
         [](const Mesh& m) {
@@ -220,7 +251,7 @@ void bind_sharing(py::module_& module, MeshClass& mesh) {
             return SharedEntities{m.processes(), m.vertex_count(),
                                   std::make_shared<const Sharing>(m.now().vertex_sharing())};
         },
-        "Who else has this rank's vertices, and who owns them.");
+        "Sharing: the ranks that share this rank's vertices, and their owners.");
 }
 
 }  // namespace octetra::python

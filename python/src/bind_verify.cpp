@@ -1,13 +1,16 @@
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <octetra/core/error.hpp>
 #include <octetra/verify/verify.hpp>
 
+#include "arguments.hpp"
 #include "bind.hpp"
 
 namespace octetra::python {
@@ -15,19 +18,26 @@ namespace {
 
 namespace ov = verify;
 
-/// Collective. The mesh as it is, alone or as a refinement of the one in a file.
-ov::Verdict judge(Mesh& mesh, const py::object& coarse, bool fast, const py::object& min_dihedral) {
-    // None on all ranks, or a path on all.
-    const py::object words = coarse.is_none() ? py::object(py::str()) : coarse;
-    const std::filesystem::path input = common_path(mesh.processes(), words);
-    ov::VerifyOptions options{.fast = fast};
-    convert_on_each(mesh.processes(), [&] {
-        if (input.empty() && !coarse.is_none()) throw InputError("coarse: the path is empty");
-        options.min_dihedral = min_dihedral.cast<std::optional<double>>();
-        if (options.min_dihedral && !(*options.min_dihedral >= 0 && *options.min_dihedral <= 180)) {
-            throw InputError(fmt::format("min_dihedral takes a number from 0 to 180, not '{}'",
-                                         *options.min_dihedral));
-        }
+/// An angle in degrees, or none for None.
+std::optional<double> angle_from(const char* name, const py::handle& given) {
+    if (given.is_none()) return std::nullopt;
+    const double angle = number_from(name, given);
+    if (angle >= 0 && angle <= 180) return angle;
+    refuse(name, "a number from 0 to 180, or None", given);
+}
+
+/// Collective. Verifies the mesh, alone or as a refinement of the one in a file.
+ov::Verdict judge(Mesh& mesh, const Arguments& arguments) {
+    ov::VerifyOptions options;
+    // The path is empty for None, which all ranks pass or none.
+    const std::filesystem::path input = common_path(mesh.processes(), [&] {
+        const auto [coarse, fast, min_dihedral] = arguments.values<3>();
+        options.fast = boolean_from("fast", fast);
+        options.min_dihedral = angle_from("min_dihedral", min_dihedral);
+        if (coarse.is_none()) return std::filesystem::path();
+        const std::filesystem::path path = path_from("coarse", coarse);
+        if (path.empty()) throw InputError("coarse: the path is empty");
+        return path;
     });
     return mesh.ask([&](const od::AdaptiveMesh& now) {
         od::CanonicalMesh canonical = now.canonical();
@@ -50,7 +60,7 @@ py::dict checks(const ov::Verdict& verdict) {
     return all;
 }
 
-/// How many violations there are of each code that there are any of.
+/// The number of violations for each code with violations.
 py::dict counts(const ov::Verdict& verdict) {
     py::dict all;
     for (std::size_t code = 0; code < ov::code_count; ++code) {
@@ -64,23 +74,25 @@ py::dict counts(const ov::Verdict& verdict) {
 
 void bind_verify(py::module_& module, MeshClass& mesh) {
     py::class_<ov::Verdict>(module, "Verdict",
-                            "What the verifier found, by exact arithmetic; true if the mesh is "
+                            "The result of Mesh.verify(), by exact arithmetic; true if the mesh is "
                             "valid. The same on all ranks.")
-        .def_property_readonly("valid", &ov::Verdict::valid, "Is nothing wrong?")
+        .def_property_readonly("valid", &ov::Verdict::valid, "bool: whether no check has failed.")
         .def("__bool__", &ov::Verdict::valid)
         .def_property_readonly("checks", &checks,
                                "{name of a check: 'passed', 'failed' or 'skipped'}.")
-        .def_property_readonly("counts", &counts, "{code of a violation: how many}, if any.")
+        .def_property_readonly("counts", &counts,
+                               "{code of a violation: number of violations}, empty if valid.")
         .def("__repr__", [](const ov::Verdict& verdict) {
             return verdict.valid()
                        ? std::string("<octetra.Verdict: valid>")
                        : "<octetra.Verdict: " + py::str(counts(verdict)).cast<std::string>() + ">";
         });
-    mesh.def("verify", &judge, py::arg("coarse") = py::none(), py::kw_only(),
-             py::arg("fast") = false, py::arg("min_dihedral") = py::none(),
-             "Collective. Judges the mesh as it is; with coarse, the path of a mesh file, as a "
-             "refinement of that mesh by midpoints. fast leaves out what takes a search in space. "
-             "No dihedral angle may be less than min_dihedral, in degrees.");
+    def_method(mesh, "verify", "coarse=None, *, fast=False, min_dihedral=None", &judge,
+               "Collective. Verifies the mesh, and returns a Verdict.\n\n"
+               "coarse: the path of a mesh file; the mesh is then also verified as a refinement of "
+               "that mesh by midpoints. fast: skips the checks that search in space. min_dihedral: "
+               "the least dihedral angle that is accepted, in degrees. The arguments must be the "
+               "same on all ranks.");
 }
 
 }  // namespace octetra::python

@@ -1,11 +1,10 @@
+#include <cstdint>
 #include <string>
 #include <utility>
-#include <variant>
-#include <vector>
 
 #include <fmt/format.h>
-#include <pybind11/stl.h>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "collective.hpp"
@@ -13,45 +12,58 @@
 namespace octetra::python {
 namespace {
 
-py::array boundary_vertices(Mesh& mesh) {
-    return booleans(mesh.ask([](const od::AdaptiveMesh& now) { return now.boundary_vertices(); }));
+py::array boundary_vertices(Mesh& mesh, const Arguments& arguments) {
+    return booleans(
+        mesh.ask(arguments, [](const od::AdaptiveMesh& now) { return now.boundary_vertices(); }));
 }
 
-/// Collective. All ranks must pass the same, or their sets would be of different entities.
-py::array vertices_of(Mesh& mesh, const std::variant<Marker, std::string>& which, int dimension) {
-    const Marker* const marker = std::get_if<Marker>(&which);
-    const std::string words = marker != nullptr
-                                  ? fmt::format("{} of dimension {}", *marker, dimension)
-                                  : fmt::format("'{}'", std::get<std::string>(which));
-    check_same(mesh.processes(), words, "marker or group");
+/// Collective. All ranks must pass the same arguments, or their sets would differ.
+py::array vertices_of(Mesh& mesh, const Arguments& arguments) {
+    bool is_group = false;
+    std::string group;
+    Marker marker = 0;
+    int dimension = 0;
+    std::string text;
+    convert_on_each(mesh.processes(), [&] {
+        const auto [given, of_entities] = arguments.values<2>();
+        dimension = integer_from<std::int32_t>("dimension", of_entities);
+        is_group = py::isinstance<py::str>(given);
+        if (is_group) {
+            group = string_from("marker", given);
+            text = fmt::format("'{}'", group);
+        } else {
+            marker = integer_from<Marker>("marker", given, ", or the name of a group");
+            text = fmt::format("{} of dimension {}", marker, dimension);
+        }
+    });
+    check_same(mesh.processes(), text, "marker or group");
     return booleans(mesh.ask([&](const od::AdaptiveMesh& now) {
-        return marker != nullptr ? now.vertices_of(*marker, dimension)
-                                 : now.vertices_of(std::get<std::string>(which));
+        return is_group ? now.vertices_of(group) : now.vertices_of(marker, dimension);
     }));
 }
 
-py::array vertex_markers(Mesh& mesh) {
-    return array_of(mesh.ask([](const od::AdaptiveMesh& now) { return now.vertex_markers(); }));
+py::array vertex_markers(Mesh& mesh, const Arguments& arguments) {
+    return array_of(
+        mesh.ask(arguments, [](const od::AdaptiveMesh& now) { return now.vertex_markers(); }));
 }
 
 }  // namespace
 
 void bind_vertex_sets(MeshClass& mesh) {
-    mesh.def("boundary_vertices", &boundary_vertices,
-             "Collective. bool (vertices,): is the vertex on the boundary of the whole mesh? "
-             "Complete on all ranks, whereas the vertices of boundary() lack those of which only "
-             "another rank has a boundary face.")
-        .def("vertices_of", &vertices_of, py::arg("marker"), py::kw_only(),
-             py::arg("dimension") = 2,
-             "Collective. bool (vertices,): is it a vertex of a tagged facet with this marker? "
-             "dimension: 2 for facets, 1 for tagged edges, 3 for cells by their region tag, 0 for "
-             "the vertices' own markers. marker may be the name of a group, whose entities are "
-             "then meant, of whatever dimension. The same on all ranks. Complete on all ranks, "
-             "whereas the vertices of `facets` lack those of which only another rank has the "
-             "facet.")
-        .def("vertex_markers", &vertex_markers,
-             "Collective. int32 (vertices,): the markers of this rank's vertices, as files show "
-             "them, or (0,) where the input has none.");
+    def_method(mesh, "boundary_vertices", "", &boundary_vertices,
+               "Collective. bool (vertices,): whether each vertex is on the boundary of the whole "
+               "mesh. Complete on all ranks, in contrast to the vertices of boundary(), which lack "
+               "those whose boundary faces are all on other ranks.");
+    def_method(mesh, "vertices_of", "marker, *, dimension=2", &vertices_of,
+               "Collective. bool (vertices,): whether each vertex belongs to a tagged facet with a "
+               "marker. Complete on all ranks, in contrast to the vertices of `facets`, which lack "
+               "those whose facets are all on other ranks.\n\n"
+               "marker: an integer, or the name of a group, of any dimension. dimension: 2 for "
+               "facets, 1 for tagged edges, 3 for cells by their region tag, 0 for the markers of "
+               "the vertices themselves. The arguments must be the same on all ranks.");
+    def_method(mesh, "vertex_markers", "", &vertex_markers,
+               "Collective. int32 (vertices,): the markers of this rank's vertices, as in files, "
+               "or (0,) if the input has none.");
 }
 
 }  // namespace octetra::python

@@ -8,15 +8,17 @@
 
 #include <fmt/format.h>
 #include <mpi.h>
-#include <pybind11/stl/filesystem.h>
 
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/mpi.hpp>
 
+#include "arguments.hpp"
+
 namespace octetra::python {
 namespace {
 
-/// MPI as this module runs it where there is no mpi4py: until the interpreter ends.
+/// All ranks, by MPI that this module starts because there is no mpi4py, and finalises when the
+/// interpreter exits.
 const distributed::Communicator& own_world() {
     static std::unique_ptr<distributed::MpiSession> session;
     if (!session) {
@@ -26,29 +28,30 @@ const distributed::Communicator& own_world() {
     return session->world();
 }
 
-/// What is wrong, in a line: Python adds where it was raised.
+/// The message without the traceback that pybind11 appends.
 std::string first_line(const char* text) {
     const std::string lines = text;
     return lines.substr(0, lines.find('\n'));
 }
 
-/// The handle that an mpi4py communicator has in it.
+/// The MPI handle of an mpi4py communicator.
 MPI_Comm handle_of(const py::object& mpi, const py::object& comm) {
     if (!py::isinstance(comm, mpi.attr("Comm"))) {
-        throw py::type_error("comm: a communicator of mpi4py, or None");
+        refuse("comm", "a communicator of mpi4py or None", comm);
     }
     char text[MPI_MAX_LIBRARY_VERSION_STRING];
     int length = 0;
     MPI_Get_library_version(text, &length);
     const auto theirs = mpi.attr("Get_library_version")().cast<std::string>();
-    if (std::strcmp(theirs.c_str(), text) != 0 ||  // some count the zero at the end, too
+    if (std::strcmp(theirs.c_str(), text) != 0 ||  // some versions include the terminating zero
         mpi.attr("_sizeof")(mpi.attr("Comm")).cast<std::size_t>() != sizeof(MPI_Comm)) {
-        throw SystemError("mpi4py was built with another MPI than octetra");
+        throw SystemError("mpi4py and octetra were built with different MPI libraries");
     }
     MPI_Comm handle = MPI_COMM_NULL;
     const auto address = mpi.attr("_addressof")(comm).cast<std::uintptr_t>();
     std::memcpy(&handle, reinterpret_cast<const void*>(address), sizeof handle);
-    if (handle == MPI_COMM_NULL) throw InputError("comm: this process is not in it (COMM_NULL)");
+    if (handle == MPI_COMM_NULL)
+        throw InputError("comm is COMM_NULL, a communicator without this process");
     return handle;
 }
 
@@ -60,7 +63,7 @@ distributed::Communicator processes_of(const py::object& comm) {
         mpi = py::module_::import("mpi4py.MPI");
     } catch (py::error_already_set& error) {
         if (!error.matches(PyExc_ImportError)) throw;
-        if (!comm.is_none()) throw py::type_error("comm: only None where there is no mpi4py");
+        if (!comm.is_none()) refuse("comm", "None, as mpi4py is not installed", comm);
         return own_world();
     }
     const py::object given = comm.is_none() ? py::object(mpi.attr("COMM_WORLD")) : comm;
@@ -89,16 +92,16 @@ void convert_on_each(const distributed::Communicator& processes,
 }
 
 std::filesystem::path common_path(const distributed::Communicator& processes,
-                                  const py::object& given) {
+                                  const std::function<std::filesystem::path()>& convert) {
     std::filesystem::path path;
-    convert_on_each(processes, [&] { path = given.cast<std::filesystem::path>(); });
+    convert_on_each(processes, [&] { path = convert(); });
     check_same(processes, path.native(), "path");
     return path;
 }
 
 void check_same(const distributed::Communicator& processes, const std::string& own,
-                const char* what) {
-    without_gil([&] { processes.check_same(what, own); });
+                const char* name) {
+    without_gil([&] { processes.check_same(name, own); });
 }
 
 }  // namespace octetra::python

@@ -1,45 +1,48 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <utility>
 
 #include <pybind11/pybind11.h>
 
 #include <octetra/distributed/communicator.hpp>
 
-/// How collective functions are called from Python.
+/// Support for collective functions that Python calls.
 namespace octetra::python {
 
 namespace py = pybind11;
 
-/// The processes of an mpi4py communicator, or this one's: None. Collective.
+/// Collective. The communicator of an mpi4py communicator, or that of all ranks for None. Throws
+/// on this rank alone if `comm` is neither: there is no communicator to agree on.
 [[nodiscard]] distributed::Communicator processes_of(const py::object& comm);
 
-/// Does what waits for other processes, or takes long, without the GIL. The work must touch nothing
-/// of Python.
+/// Runs work that waits for other ranks, or takes long, without the GIL. The work must not use
+/// objects of Python.
 auto without_gil(auto&& work) {
     const py::gil_scoped_release released;
     return work();
 }
 
-/// Converts what this rank has passed, with the GIL, which the caller has not. Whatever is thrown,
-/// an exception of Python's too, comes as an InputError that names the rank, or as std::bad_alloc.
+/// Acquires the GIL, which the caller does not hold, and converts the arguments of this rank.
+/// Throws std::bad_alloc, or an InputError that names the rank instead of any other exception,
+/// those of Python included.
 void convert_here(const distributed::Communicator& processes, const std::function<void()>& convert);
 
-/// Collective. Converts what each rank has passed, with the GIL. Whatever is thrown on one rank, an
-/// exception of Python's too, is thrown on all, as InputError or OutOfMemory, and names the rank.
+/// Collective. Calls `convert` with the GIL. An exception on one rank, of Python or C++, is thrown
+/// on all ranks, as InputError or OutOfMemory; the message names the rank.
 void convert_on_each(const distributed::Communicator& processes,
                      const std::function<void()>& convert);
 
-/// Collective. Throws InputError on all ranks where this is not the same on all, with `what` it is.
+/// Collective. Throws InputError on all ranks if `own` differs between ranks; `name` says in the
+/// message which argument it is.
 void check_same(const distributed::Communicator& processes, const std::string& own,
-                const char* what);
+                const char* name);
 
-/// Collective. What `path` says, a str or an os.PathLike, which must be the same on all ranks.
-[[nodiscard]] std::filesystem::path common_path(const distributed::Communicator& processes,
-                                                const py::object& given);
+/// Collective. The path that `convert`, called with the GIL, returns. Throws InputError on all
+/// ranks if it fails on one, or if the paths differ.
+[[nodiscard]] std::filesystem::path common_path(
+    const distributed::Communicator& processes,
+    const std::function<std::filesystem::path()>& convert);
 
 }  // namespace octetra::python

@@ -9,6 +9,7 @@
 
 #include <octetra/core/error.hpp>
 
+#include "arguments.hpp"
 #include "values.hpp"
 
 namespace octetra::python {
@@ -17,8 +18,10 @@ namespace {
 void append(std::vector<distributed::Field>& fields, const py::object& given, FieldOn on,
             std::size_t count) {
     if (given.is_none()) return;
-    for (const auto& item : given.cast<py::dict>()) {
-        const auto name = item.first.cast<std::string>();
+    const char* const argument = on == FieldOn::cells ? "cell_fields" : "vertex_fields";
+    if (!py::hasattr(given, "keys")) refuse(argument, "a dict {name: array}", given);
+    for (const auto& item : py::dict(given)) {
+        const std::string name = string_from("the name of a field", item.first);
         try {
             const Values values =
                 values_for(item.second, count, on == FieldOn::cells ? "cells" : "vertices");

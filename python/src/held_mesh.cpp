@@ -23,7 +23,7 @@ void Mesh::detach_arrays() {
                                  .roots = in_use(roots)};
     const bool none = std::ranges::all_of(held_, [](const auto& held) { return held.expired(); });
     if (none) return;
-    const auto left = std::make_shared<od::DetachedArrays>();  // before: it may find no memory
+    const auto left = std::make_shared<od::DetachedArrays>();  // first, as the allocation may fail
     *left = mesh_.detach_arrays(arrays);
     for (std::weak_ptr<Memory>& held : held_) {
         if (const auto memory = held.lock()) memory->owner = left;

@@ -12,7 +12,8 @@
 
 namespace octetra::python {
 
-/// The MeshSeries of Python: a series, until it is committed or given up, and its processes.
+/// The class MeshSeries of Python: a series, until it is committed or discarded, and its
+/// communicator.
 class Series {
 public:
     Series(distributed::Communicator processes, const std::filesystem::path& path)
@@ -20,19 +21,18 @@ public:
 
     [[nodiscard]] const distributed::Communicator& processes() const { return processes_; }
     [[nodiscard]] bool is_open() const { return open_.has_value(); }
-    /// Not collective: what was written so far is gone.
+    /// Discards what has been written. Not collective.
     void give_up() {
         if (is_lent_) throw SystemError("the series is in use by another thread");
         open_.reset();
     }
 
-    /// The series while one thread works with it, in a collective function that others may run
-    /// beside.
+    /// Access for one thread in a collective function, during which other threads may run.
     class Lent {
     public:
         explicit Lent(Series& series) : series_(&series) {
             if (series.is_lent_) throw SystemError("the series is in use by another thread");
-            if (!series.open_) throw InputError("the series is committed, or given up");
+            if (!series.open_) throw InputError("the series has been committed or discarded");
             series.is_lent_ = true;
         }
         ~Lent() { series_->is_lent_ = false; }

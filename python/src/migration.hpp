@@ -8,7 +8,7 @@
 
 namespace octetra::python {
 
-/// Where cells went, and what values are to fit.
+/// A migration, and the numbers of cells and vertices of this rank before it.
 struct Moved {
     od::Communicator processes;
     std::size_t cells_before = 0;

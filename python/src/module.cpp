@@ -12,7 +12,7 @@
 namespace octetra::python {
 namespace {
 
-/// A new exception class of the module.
+/// Creates an exception class of the module.
 py::object error_class(py::module_& module, const char* name, const char* doc,
                        const py::object& bases) {
     const std::string full = std::string("octetra.") + name;
@@ -23,26 +23,27 @@ py::object error_class(py::module_& module, const char* name, const char* doc,
     return made;
 }
 
-// Kept as long as the interpreter lives, which a destructor would not know.
+// References that live as long as the interpreter; a destructor would run after its end.
 PyObject* input_error = nullptr;
 PyObject* system_failure = nullptr;
 
 void bind_errors(py::module_& module) {
-    const py::object error = error_class(module, "Error", "What Octetra raises.",
-                                         py::reinterpret_borrow<py::object>(PyExc_Exception));
+    const py::object error =
+        error_class(module, "Error", "The base class of the exceptions of Octetra.",
+                    py::reinterpret_borrow<py::object>(PyExc_Exception));
     const auto derived = [&](const char* name, const char* doc, PyObject* builtin) {
         return error_class(module, name, doc,
                            py::make_tuple(error, py::reinterpret_borrow<py::object>(builtin)));
     };
     input_error = derived("InputError",
-                          "An argument, a file or a step that is not right. Raised alike on all "
-                          "ranks by what is collective; the mesh is then as it was before.",
+                          "An invalid argument, file or step. Collective functions raise it alike "
+                          "on all ranks, and leave the mesh unchanged.",
                           PyExc_ValueError)
                       .release()
                       .ptr();
     system_failure = derived("SystemFailure",
-                             "The system failed: a disk is full, a file cannot be written. Raised "
-                             "alike on all ranks by what is collective.",
+                             "A failure of the system, such as a full disk. Collective functions "
+                             "raise it alike on all ranks.",
                              PyExc_RuntimeError)
                          .release()
                          .ptr();
@@ -58,26 +59,31 @@ void bind_errors(py::module_& module) {
 }
 
 PyObject* refuse_new(PyTypeObject* type, PyObject*, PyObject*) {
-    PyErr_Format(PyExc_TypeError, "%s: objects are returned by functions of octetra, and not made",
+    PyErr_Format(PyExc_TypeError, "%s cannot be constructed: functions of octetra return instances",
                  type->tp_name);
     return nullptr;
 }
 
-/// __new__ without __init__ makes an object that has no value; pybind11 would give its methods
-/// memory to which nothing was written. Classes without __init__ refuse __new__, and those with one
-/// refuse such an object where it is used.
+/// Makes objects that __new__ creates without __init__ unusable, as pybind11 would pass memory that
+/// is not initialised to their methods. Classes without __init__ refuse __new__; those with
+/// __init__ refuse such an object where it is used.
 void refuse_objects_without_value(const py::module_& module) {
     for (const auto& [name, object] : py::dict(module.attr("__dict__"))) {
         if (!PyType_Check(object.ptr())) continue;
         auto* const type = reinterpret_cast<PyTypeObject*>(object.ptr());
         py::detail::type_info* const info = py::detail::get_type_info(type);
-        if (info == nullptr) continue;  // no class of pybind11
+        if (info == nullptr) continue;  // not a class of pybind11
         // pybind11 gives a class without a constructor an __init__ that raises.
         if (Py_TYPE(object.attr("__init__").ptr()) == &PyWrapperDescr_Type) {
-            type->tp_new = refuse_new;
+            object.attr("__new__") =
+                py::cpp_function([type](const py::args&, const py::kwargs&) -> py::object {
+                    (void)refuse_new(type, nullptr, nullptr);
+                    throw py::error_already_set();
+                });
+            type->tp_new = refuse_new;  // for the __new__ of base classes
         } else {
             info->operator_new = [](std::size_t) -> void* {
-                throw py::type_error("an object that was made without __init__");
+                throw py::type_error("the object has not been initialised by __init__");
             };
         }
     }
@@ -89,15 +95,16 @@ PYBIND11_MODULE(_octetra, module) {
     module.doc() = "The compiled part of octetra.";
     module.attr("__version__") = version();
     py::options options;
-    options.disable_enum_members_docstring();
+    options.disable_function_signatures();  // def_method() and def_function() write them
     bind_errors(module);
     MeshClass mesh(
         module, "Mesh",
-        "A tetrahedral mesh of which each rank of a communicator has a part.\n\n"
-        "Numbers of vertices and cells are local to the rank, from 0, where nothing else "
-        "is said. Arrays are read-only and no copies; they stay as they are when the "
-        "mesh moves on, which then has new ones. Collective methods are called by all "
-        "ranks in the same order, and raise alike on all of them.");
+        "A tetrahedral mesh that is distributed over the ranks of a communicator.\n\n"
+        "octetra.read(), load() and from_arrays() return meshes. Numbers of vertices and cells are "
+        "local to the rank and start from 0, unless stated otherwise. Arrays are read-only views; "
+        "they keep their values when the mesh changes, and the mesh then has new arrays. "
+        "Collective methods must be called by all ranks in the same order, and raise the same "
+        "exception on all ranks.");
     bind_adaptation(module, mesh);
     bind_migration(module);
     bind_arrays(mesh);

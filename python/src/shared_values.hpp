@@ -11,7 +11,7 @@
 
 namespace octetra::python {
 
-/// Who else has this rank's vertices, edges or faces; `count` there are of them here.
+/// The sharers and owners of the vertices, edges or faces of this rank, of which there are `count`.
 struct SharedEntities {
     template <class I>
     using Pointer = std::shared_ptr<const od::Sharing<I>>;

@@ -17,28 +17,27 @@
 
 #include "arrays.hpp"
 
-/// Values that a program has for cells or vertices: an array of shape (n,) or (n, ...).
+/// Values of cells, vertices or other entities: an array of shape (n,) or (n, ...).
 namespace octetra::python {
 
 struct Values {
     py::array array;             ///< contiguous
-    std::size_t count = 0;       ///< the n of the shape
-    std::size_t components = 1;  ///< the product of the rest
+    std::size_t count = 0;       ///< the first dimension
+    std::size_t components = 1;  ///< the product of the other dimensions
 
-    /// So many entities' values, with the rest of the shape as it is: an array that can be written
-    /// to, over memory that `owner` keeps.
+    /// A writable array of this type for `new_count` entities, over memory that `owner` keeps.
     [[nodiscard]] py::array like(std::size_t new_count, const void* data,
                                  std::shared_ptr<const void> owner) const;
     [[nodiscard]] std::size_t bytes() const {
         return components * static_cast<std::size_t>(array.itemsize());
     }
-    /// A copy, as bytes or as numbers of the array's type.
+    /// A copy, as bytes or as numbers of the type of the array.
     template <class T = std::byte>
     [[nodiscard]] std::vector<T> copy() const {
         const auto* data = static_cast<const T*>(array.data());
         return {data, data + static_cast<std::size_t>(array.nbytes()) / sizeof(T)};
     }
-    /// The array of what has become of that copy.
+    /// An array of this type for the values of other entities, by result of copy().
     template <class T>
     [[nodiscard]] py::array like(std::vector<T> values) const {
         const std::size_t size = values.size() * sizeof(T);
@@ -47,21 +46,19 @@ struct Values {
     }
 };
 
-/// Throws InputError unless there are values for `wanted` of these entities, one or more numbers
-/// for each, and not Python's objects.
-[[nodiscard]] Values values_for(const py::handle& given, std::size_t wanted,
+/// Throws InputError unless `given` has one or more numbers for each of `expected` entities.
+[[nodiscard]] Values values_for(const py::handle& given, std::size_t expected,
                                 const std::string& entities);
 
-/// Collective. The same where all ranks pass values of one type and shape, but for the number of
-/// entities, in one `way`; throws InputError on all ranks else. Values go as bytes, and those of
-/// two types would be taken for each other.
+/// Collective. The values of each rank, which `convert`, called with the GIL, returns. Throws
+/// InputError on all ranks if that fails on one, or if types, shapes but for the first dimension,
+/// or the texts that `detail` returns differ between ranks: values are exchanged as bytes.
 [[nodiscard]] Values values_on_each(const distributed::Communicator& processes,
-                                    const py::handle& given, std::size_t wanted,
-                                    const std::string& entities,
-                                    const std::function<std::string(const Values&)>& way = {});
+                                    const std::function<Values()>& convert,
+                                    const std::function<std::string(const Values&)>& detail = {});
 
-/// Calls work(T()) with T the type of the numbers: float64, float32, int32 or int64. Throws
-/// InputError for others. The types of fields in files.
+/// Calls work(T()), where T is the type of the numbers: float64, float32, int32 or int64, the types
+/// of fields in files. Throws InputError for others.
 auto with_number_type(const py::array& array, auto&& work,
                       const char* accepted = "float64, float32, int32 and int64") {
     const auto is = [&](const py::dtype& type) { return array.dtype().equal(type); };
@@ -70,10 +67,10 @@ auto with_number_type(const py::array& array, auto&& work,
     if (is(py::dtype::of<std::int32_t>())) return work(std::int32_t());
     if (is(py::dtype::of<std::int64_t>())) return work(std::int64_t());
     throw InputError("values of type " + py::str(array.dtype()).cast<std::string>() + ": only " +
-                     accepted + "; astype() makes them so");
+                     accepted + " are accepted; astype() converts them");
 }
 
-/// The same, of complex128 and complex64, too.
+/// The same, also for complex128 and complex64.
 auto with_field_type(const py::array& array, auto&& work) {
     const auto is = [&](const py::dtype& type) { return array.dtype().equal(type); };
     if (is(py::dtype::of<std::complex<double>>())) return work(std::complex<double>());

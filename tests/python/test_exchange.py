@@ -58,7 +58,7 @@ def test_booleans_are_true_on_all_that_have_a_vertex_where_they_are_on_one(fine)
     mine[:, 1] = sharing.owners == world.rank
     found = sharing.combine(mine, "or")
     assert found.dtype == bool and not found[:, 0].any() and found[:, 1].all()
-    with pytest.raises(octetra.InputError, match="by 'or' alone"):
+    with pytest.raises(octetra.InputError, match="must be 'or' for booleans"):
         sharing.combine(mine)
 
 

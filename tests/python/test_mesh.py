@@ -121,7 +121,7 @@ def test_a_mesh_tells_its_communicator_attributes_and_markers(folder):
 def test_the_communicator_says_which_ranks_have_a_mesh(cube):
     alone = octetra.read(cube, world.Split(world.rank))
     assert (alone.rank, alone.rank_count, len(alone.cells)) == (0, 1, 384)
-    with pytest.raises(TypeError):
+    with pytest.raises(octetra.InputError):
         octetra.read(cube, comm=3)
 
 

@@ -60,7 +60,7 @@ def test_regions_have_the_names_of_the_file(folder):
     mesh.write(folder / "out.msh")
     command("refine", box, "--region", "steel", "-o", folder / "expected.msh")
     assert same(folder / "out.msh", folder / "expected.msh")
-    with pytest.raises(octetra.InputError, match="'glass'; there are air above, steel"):
+    with pytest.raises(octetra.InputError, match="'glass' of cells; the groups are air above, steel"):
         octetra.mark.region(mesh, "glass")
     without = octetra.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
                                   [[0, 1, 2, 3]] if world.rank == 0 else [])

@@ -1,4 +1,4 @@
-# Types of the compiled part. The docstrings are the functions' own: help(octetra.Mesh).
+# Types of the compiled part, whose functions have the docstrings: help(octetra.Mesh).
 from os import PathLike
 from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 

@@ -1,0 +1,197 @@
+"""Arguments of a wrong type, unknown ones and missing ones are refused alike on all ranks by collective
+functions, in words that name the argument, what is expected and what was passed."""
+
+import collections
+import inspect
+
+import numpy as np
+import pytest
+from conftest import world
+
+import octetra
+
+last = world.rank == world.size - 1
+
+
+class Call:
+    """Calls a function with wrong arguments on the last rank, and with right ones on the others."""
+
+    def __init__(self, *right, **named):
+        self.right, self.named = right, named
+
+    def __call__(self, function, *wrong, **named):
+        return function(*wrong, **named) if last else function(*self.right, **self.named)
+
+
+def ones(mesh):
+    return np.ones(len(mesh.points))
+
+
+def step_of(mesh):
+    return mesh.refine(cells=[])
+
+
+# The message of the call on the last rank, which all ranks get.
+CASES = {
+    "refine() got an unexpected keyword argument 'mark'": lambda m: Call()(m.refine, mark=None),
+    "refine() takes from 0 to 1 positional arguments but 2 were given": lambda m: Call()(
+        m.refine, None, None),
+    "refine_edges() missing 1 required positional argument: 'edges'": lambda m: Call([])(m.refine_edges),
+    "refine() got multiple values for argument 'marks'": lambda m: Call()(m.refine, None, marks=None),
+    "scheme must be a string, not 8": lambda m: Call()(m.refine, scheme=8),
+    "scheme must be a string, not None": lambda m: Call()(m.refine_edges, [], scheme=None)
+    if last else m.refine_edges([]),
+    "scheme must be '8t', '4t' or '2t', not '8'": lambda m: Call()(m.refine, scheme="8"),
+    "max_cells must be an integer from 0 to 18446744073709551615, not 'a'": lambda m: Call()(
+        m.refine, max_cells="a"),
+    "max_cells must be an integer from 0 to 18446744073709551615, not 18446744073709551616":
+        lambda m: Call()(m.refine, max_cells=2**64),
+    "max_cells must be an integer from 0 to 18446744073709551615, not 1.5": lambda m: Call()(
+        m.refine_evenly, max_cells=1.5),
+    "most_over_mean must be a number, not 'a'": lambda m: Call()(m.rebalance, most_over_mean="a"),
+    "may_forget_history must be True or False, not None": lambda m: Call()(
+        m.refine_evenly, may_forget_history=None),
+    "coarsen() takes from 0 to 1 positional arguments but 2 were given": lambda m: Call()(
+        m.coarsen, None, None),
+    "migrate() missing 1 required positional argument: 'rank_of_root'": lambda m: Call(
+        np.zeros(len(m.roots), int))(m.migrate),
+    "recall_history() takes 0 positional arguments but 1 was given": lambda m: Call()(m.recall_history, 1),
+    "count_cells() takes 0 positional arguments but 1 was given": lambda m: Call()(m.count_cells, 1),
+    "number_edges() got an unexpected keyword argument 'all'": lambda m: Call()(m.number_edges, all=True),
+    "face_neighbours() takes 0 positional arguments but 1 was given": lambda m: Call()(
+        m.face_neighbours, 1),
+    "cell_index_map() takes 0 positional arguments but 1 was given": lambda m: Call()(m.cell_index_map, 1),
+    "index_map() takes 0 positional arguments but 1 was given": lambda m: Call()(
+        m.vertex_sharing.index_map, 1),
+    "statistics() takes 1 positional argument but 2 were given": lambda m: Call(m)(
+        octetra.quality.statistics, m, m),
+    "by must be a string, not 3": lambda m: Call()(m.ghosts, 3),
+    "by must be 'face' or 'vertex', not 'edge'": lambda m: Call()(m.ghosts, "edge"),
+    "operation must be a string, not 3": lambda m: Call(ones(m))(m.vertex_sharing.combine, ones(m), 3),
+    "update_copies() missing 1 required positional argument: 'values'": lambda m: Call(ones(m))(
+        m.vertex_sharing.update_copies),
+    "marker must be an integer from -2147483648 to 2147483647, or the name of a group, not 1099511627776":
+        lambda m: Call(1)(m.vertices_of, 2**40),
+    "dimension must be an integer from -2147483648 to 2147483647, not 'facets'": lambda m: Call(1)(
+        m.vertices_of, 1, dimension="facets"),
+    "step must be an octetra.Adaptation, not 3": lambda m: Call(step_of(m), ones(m))(
+        m.transfer_conservatively, 3, ones(m)),
+    "series must be an octetra.MeshSeries, not None": lambda m: Call(octetra.MeshSeries("no.vtkhdf"), 1)(
+        m.append_to, None, 1),
+    "theta must be a number, not 'half'": lambda m: Call(m, np.ones(len(m.cells)))(
+        octetra.mark.doerfler, m, np.ones(len(m.cells)), "half"),
+    "path must be a string or an os.PathLike, not 3": lambda m: Call("no.mesh")(octetra.read, 3),
+    "path must be a string or an os.PathLike, not None": lambda m: Call("no.vtu")(m.write, None),
+    "partition must be a string, not 3": lambda m: Call("no.mesh")(octetra.read, "no.mesh", partition=3),
+    "load() got an unexpected keyword argument 'parts'": lambda m: Call("no.octetra")(
+        octetra.load, "no.octetra", parts=3),
+    "MeshSeries() missing 1 required positional argument: 'path'": lambda m: Call("no.vtkhdf")(
+        octetra.MeshSeries),
+    "from_arrays() missing 1 required positional argument: 'cells'": lambda m: Call([], [])(
+        octetra.from_arrays, []),
+    "index_base must be an integer from 0 to 4294967295, not -1": lambda m: Call([], [])(
+        octetra.from_arrays, [], [], index_base=-1),
+    "vertex_fields must be a dict {name: array}, not [1.0]": lambda m: Call("no.vtu")(
+        m.write, "no.vtu", vertex_fields=[1.0]),
+    "the name of a field must be a string, not 1": lambda m: Call("no.vtu")(
+        m.write, "no.vtu", vertex_fields={1: ones(m)}),
+    "time must be a number, not 'a'": lambda m: Call("no.octetra")(m.save, "no.octetra", time="a"),
+    "step must be an integer from -9223372036854775808 to 9223372036854775807, not 1.5":
+        lambda m: Call("no.octetra")(m.save, "no.octetra", step=1.5),
+    "step must be an integer from -9223372036854775808 to 9223372036854775807, not 'a'":
+        lambda m: Call("no.octetra")(m.save, "no.octetra", step="a"),
+    "text must be a string, not 3": lambda m: Call("no.octetra")(m.save, "no.octetra", text=3),
+    "coarse must be a string or an os.PathLike, not 3": lambda m: Call()(m.verify, 3),
+    "fast must be True or False, not 'x'": lambda m: Call()(m.verify, fast="x"),
+    "min_dihedral must be a number, not 'x'": lambda m: Call()(m.verify, min_dihedral="x"),
+}
+
+
+@pytest.mark.parametrize("words", CASES)
+def test_an_argument_that_one_rank_refuses_is_an_error_on_all(mesh, words, monkeypatch, folder):
+    monkeypatch.chdir(folder)
+    points = mesh.points
+    with pytest.raises(octetra.InputError) as raised:
+        CASES[words](mesh)
+    assert str(raised.value) == f"rank {world.size - 1}: {words}"
+    assert np.array_equal(mesh.points, points)
+    assert mesh.verify()
+
+
+def test_a_long_argument_is_named_by_its_type(mesh):
+    with pytest.raises(octetra.InputError, match="not an object of type ndarray$"):
+        mesh.write("no.vtu", vertex_fields=np.ones(100))
+
+
+@pytest.mark.skipif(world.size == 1, reason="there is no other rank")
+def test_edges_are_not_exchanged_with_vertices(mesh):
+    edges = mesh.number_edges()
+    sharing = edges.sharing if last else mesh.vertex_sharing
+    words = f"rank {world.size - 1}: the type of the values is int64 for each edge.*, and int64 for each vertex"
+    for call in (sharing.update_copies, sharing.combine):
+        with pytest.raises(octetra.InputError, match=words):
+            call(np.ones(len(sharing.owners), int))
+
+
+LOCAL = {
+    "mesh must be an octetra.Mesh, not 3": lambda m: octetra.mark.sphere(3, (0, 0, 0), 1),
+    "centre must be three numbers, not (0, 0)": lambda m: octetra.mark.sphere(m, (0, 0), 1),
+    "radius must be a number, not None": lambda m: octetra.mark.sphere(m, (0, 0, 0), None),
+    "box() missing 1 required positional argument: 'high'": lambda m: octetra.mark.box(m, (0, 0, 0)),
+    "tag must be an integer from -2147483648 to 2147483647, or the name of a group of cells, "
+    "not 1099511627776": lambda m: octetra.mark.region(m, 2**40),
+    "seed must be an integer from 0 to 18446744073709551615, not -1": lambda m: octetra.mark.random(
+        m, 0.5, seed=-1),
+    "volume must be a number, not 'a'": lambda m: octetra.mark.larger_than(m, "a"),
+    "mesh must be an octetra.Mesh, not None": lambda m: octetra.quality.volume(None),
+    "how must be a string, not 3": lambda m: step_of(m).transfer_cells(np.ones(len(m.cells)), 3),
+    "how must be 'copied', 'averaged' or 'divided', not 'halved'": lambda m: step_of(m).transfer_cells(
+        np.ones(len(m.cells)), "halved"),
+    "transfer_vertices() takes 1 positional argument but 2 were given": lambda m: step_of(
+        m).transfer_vertices(ones(m), "copied"),
+    "entity must be an integer from -9223372036854775808 to 9223372036854775807, not 'a'":
+        lambda m: m.vertex_sharing.sharers("a"),
+    "path must be a string or an os.PathLike, not 3": lambda m: octetra.saved_state(3),
+    "boundary() takes 0 positional arguments but 1 was given": lambda m: m.boundary(1),
+    "comm must be a communicator of mpi4py or None, not 3": lambda m: octetra.read("no.mesh", 3),
+}
+
+
+@pytest.mark.parametrize("words", LOCAL)
+def test_functions_that_are_not_collective_refuse_arguments_in_the_same_words(mesh, words):
+    with pytest.raises(octetra.InputError) as raised:
+        LOCAL[words](mesh)
+    assert str(raised.value) == words
+
+
+def test_what_converts_is_accepted(mesh, folder):
+    path = folder / "state.octetra"
+    fields = collections.ChainMap({"u": ones(mesh)})  # a mapping, and no dict
+    mesh.save(path, vertex_fields=fields, time=np.float32(1.5), step=np.int64(3), text="a\tb\n")
+    assert octetra.saved_state(str(path)) == {"time": 1.5, "step": 3, "text": "a\tb\n"}
+    assert mesh.verify(fast=np.True_, min_dihedral=np.float32(1))
+    mesh.refine(max_cells=np.uint8(0) + 10**6)
+    assert mesh.vertices_of(marker=np.int16(1), dimension=2).any()
+    assert octetra.quality.volume(mesh=mesh).sum() > 0
+    world.Barrier()
+
+
+def test_a_mesh_has_no_constructor():
+    for make in (octetra.Mesh, lambda: octetra.Mesh.__new__(octetra.Mesh)):
+        with pytest.raises(TypeError, match="Mesh cannot be constructed: functions of octetra return"):
+            make()
+
+
+def test_functions_have_signatures_and_no_name_of_cpp(mesh):
+    words = "marks=None, *, cells=None, scheme='8t', max_cells=None)"
+    assert str(inspect.signature(octetra.Mesh.refine)) == f"(self, {words}"
+    assert str(inspect.signature(mesh.refine)) == f"({words}"
+    assert str(inspect.signature(octetra.read)) == "(path, comm=None, *, partition='rcb')"
+    modules = (octetra._octetra, octetra.mark, octetra.quality)
+    things = [thing for module in modules for thing in vars(module).values()]
+    things += [member for thing in things if isinstance(thing, type) for member in vars(thing).values()]
+    assert not [thing for thing in things if "::" in (getattr(thing, "__doc__", None) or "")]
+
+
+def test_the_docstring_of_save_names_its_defaults():
+    assert "0.0, 0 or ''" in octetra.Mesh.save.__doc__ and "control characters" in octetra.Mesh.save.__doc__

@@ -36,7 +36,9 @@ def positive(word):
 
 
 def parse_command_line():
-    parser = argparse.ArgumentParser(prog="bench", description=__doc__.split("\n\n")[0])
+    parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__.split("\n\n")[0],
+                                     epilog="For the other benchmarks: ./dev bench --rival --help and "
+                                            "./dev bench --paper --help.")
     parser.add_argument("--build", metavar="FOLDER", default="build/release")
     parser.add_argument("-o", "--output", metavar="FOLDER", default="bench")
     parser.add_argument("--quick", action="store_true",

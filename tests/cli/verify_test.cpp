@@ -209,6 +209,13 @@ TEST_F(Verify, CompareReportsWhatIsTheSame) {
                 HasSubstr("one counts from 0, the other from 1"));
     EXPECT_THAT(expect_status(0, "compare gear.1.ele gear.1.node --identical").out,
                 HasSubstr("identical"));
+    test::write_file(folder / "zero.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+    test::write_file(folder / "zero.ele", "1 4 0\n0 0 1 2 3\n");
+    test::write_file(folder / "zero.face", "1 1\n0 0 2 1 0\n");
+    expect_status(0, "convert zero.ele zero.mesh --quiet");
+    EXPECT_THAT(expect_status(0, "compare zero.ele zero.mesh").out,
+                HasSubstr("numbering: one counts from 0, the other from 1; one has markers or "
+                          "region tags that are all 0, the other has none, and nothing else "));
     const auto run = expect_status(1, "compare gear.1.ele fine.1.ele");
     EXPECT_THAT(run.out, AllOf(HasSubstr("cell at ("), HasSubstr("absent in gear.1.ele"),
                                HasSubstr("different")));

@@ -166,6 +166,7 @@ std::vector<BadBytes> bad_bytes() {
     std::vector<BadBytes> cases{
         {"Empty", "", 0, "the file ends where the number 1 should be"},
         {"Text", "MeshVersionFormatted 2\n", 0, "text file: name it .mesh"},
+        {"OfMfem", "MFEM mesh v1.0\n", 0, "this is a mesh of MFEM; of .meshb files"},
         {"Begin", "Nothing of the kind\n", 0, "begins with the number 1"},
         {"OnlyOne", bytes_of(std::int32_t{1}), 4, "ends where the format's version should be"},
         {"VersionZero", bytes_of(std::int32_t{1}, std::int32_t{0}), 4, "versions 1 to 4, not 0"},

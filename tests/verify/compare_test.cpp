@@ -55,11 +55,11 @@ TEST(Compare, ReportsIfOnlyTheIndexBaseDiffers) {
     Mesh other = mesh;
     other.index_base = 1;
     EXPECT_EQ(compare(mesh, other).likeness, Likeness::up_to_numbering);
-    EXPECT_TRUE(compare(mesh, other).only_index_base_differs);
-    EXPECT_FALSE(compare(mesh, mesh).only_index_base_differs);
+    EXPECT_TRUE(compare(mesh, other).index_base_differs);
+    EXPECT_FALSE(compare(mesh, mesh).index_base_differs);
     std::swap(other.cells[CellIndex{0}], other.cells[CellIndex{1}]);
     EXPECT_EQ(compare(mesh, other).likeness, Likeness::up_to_numbering);
-    EXPECT_FALSE(compare(mesh, other).only_index_base_differs);
+    EXPECT_FALSE(compare(mesh, other).index_base_differs);
 }
 
 TEST(Compare, LooksAtNoNamesOfGroups) {
@@ -134,14 +134,36 @@ TEST(Compare, FindsZerosOfAnotherSignEqualAndNotIdentical) {
     of_attributes.point_attributes[2] = -0.0;
     for (const Mesh& other : {of_points, of_attributes}) {
         EXPECT_EQ(compare(mesh, other).likeness, Likeness::up_to_numbering);
-        EXPECT_TRUE(compare(mesh, other).only_signs_of_zeros_differ);
+        EXPECT_TRUE(compare(mesh, other).signs_of_zeros_differ);
         EXPECT_EQ(compare(other, other).likeness, Likeness::identical);
         Mesh from_one = other;
         from_one.index_base = 1;
         EXPECT_EQ(compare(mesh, from_one).likeness, Likeness::up_to_numbering);
-        EXPECT_FALSE(compare(mesh, from_one).only_index_base_differs);
+        EXPECT_TRUE(compare(mesh, from_one).index_base_differs);
+        EXPECT_TRUE(compare(mesh, from_one).signs_of_zeros_differ);
     }
-    EXPECT_FALSE(compare(mesh, mesh).only_signs_of_zeros_differ);
+    EXPECT_FALSE(compare(mesh, mesh).signs_of_zeros_differ);
+}
+
+TEST(Compare, SaysWhereOnlyTagsThatAreAllZeroDiffer) {
+    const Mesh mesh = tagged();  // with vertex markers that are all 0
+    Mesh other = mesh;
+    other.point_markers = {};
+    for (const Comparison& found : {compare(mesh, other), compare(other, mesh)}) {
+        EXPECT_EQ(found.likeness, Likeness::up_to_numbering);
+        EXPECT_TRUE(found.zero_tags_differ);
+        EXPECT_FALSE(found.index_base_differs);
+        EXPECT_FALSE(found.signs_of_zeros_differ);
+    }
+    other.regions = {};
+    EXPECT_EQ(compare(mesh, other).likeness, Likeness::different);
+    EXPECT_FALSE(compare(mesh, other).zero_tags_differ);
+    other = mesh;
+    other.point_markers = {};
+    other.index_base = 1;
+    EXPECT_TRUE(compare(mesh, other).index_base_differs);
+    EXPECT_TRUE(compare(mesh, other).zero_tags_differ);
+    EXPECT_FALSE(compare(mesh, mesh).zero_tags_differ);
 }
 
 TEST(Compare, FindsAttributesThatAreNoNumbersEqual) {

@@ -30,7 +30,7 @@ from summary import totals
 
 
 def parse_command_line():
-    parser = argparse.ArgumentParser(prog="equivalence", description=__doc__.split("\n\n")[0])
+    parser = argparse.ArgumentParser(prog="./dev equivalence", description=__doc__.split("\n\n")[0])
     parser.add_argument("--octetra", metavar="PROGRAM", default="octetra", help="[octetra, in the PATH; with ./dev: its build]")
     parser.add_argument("-o", "--output", metavar="FOLDER", default="equivalence", help="[equivalence; with ./dev and --quick or --only: equivalence/part]")
     parser.add_argument("--quick", action="store_true", help="a few small cases and a loop, every run once")

@@ -227,13 +227,23 @@ private:
     std::size_t kept_of_kind_ = 0;
 };
 
-/// All data of a mesh except coordinates, attributes, group names and the index base.
-auto whole_numbers_of(const Mesh& mesh) {
-    const auto& [points, point_markers, attributes_per_point, point_attributes, cells, regions,
-                 facets, facet_markers, edges, edge_markers, features, group_names, index_base] =
-        mesh;
-    return std::tie(point_markers, attributes_per_point, cells, regions, facets, facet_markers,
-                    edges, edge_markers, features);
+/// The integers of a mesh other than tags and the index base.
+auto lists_of(const Mesh& mesh) {
+    return std::tie(mesh.attributes_per_point, mesh.cells, mesh.facets, mesh.edges, mesh.features);
+}
+
+/// Calls compare(tags of a, tags of b) for each list of markers or region tags, while it is true.
+bool all_tags(const Mesh& a, const Mesh& b, auto&& compare) {
+    return compare(a.point_markers, b.point_markers) && compare(a.regions, b.regions) &&
+           compare(a.facet_markers, b.facet_markers) && compare(a.edge_markers, b.edge_markers);
+}
+
+/// Whether two lists of tags are equal if a list that is absent stands for zeros.
+bool are_equal_tags(const auto& a, const auto& b) {
+    const auto are_zeros = [](const auto& tags) {
+        return std::ranges::all_of(tags, [](Marker tag) { return tag == 0; });
+    };
+    return a == b || (a.empty() && are_zeros(b)) || (b.empty() && are_zeros(a));
 }
 
 bool are_reals_equal(const Mesh& a, const Mesh& b) {
@@ -258,11 +268,17 @@ bool have_zeros_same_signs(const Mesh& a, const Mesh& b) {
 Comparison compare(const Mesh& a, const Mesh& b, std::size_t kept) {
     const StandardArithmetic standard;
     Comparison result;
-    const bool same_lists = whole_numbers_of(a) == whole_numbers_of(b) && are_reals_equal(a, b);
-    const bool same_zeros = same_lists && have_zeros_same_signs(a, b);
-    if (same_zeros && a.index_base == b.index_base) return result;
-    result.only_index_base_differs = same_zeros;
-    result.only_signs_of_zeros_differ = same_lists && a.index_base == b.index_base;
+    if (lists_of(a) == lists_of(b) && are_reals_equal(a, b) &&
+        all_tags(a, b, [](const auto& x, const auto& y) { return are_equal_tags(x, y); })) {
+        result.index_base_differs = a.index_base != b.index_base;
+        result.signs_of_zeros_differ = !have_zeros_same_signs(a, b);
+        result.zero_tags_differ =
+            !all_tags(a, b, [](const auto& x, const auto& y) { return x == y; });
+        if (result.index_base_differs || result.signs_of_zeros_differ || result.zero_tags_differ) {
+            result.likeness = Likeness::up_to_numbering;
+        }
+        return result;
+    }
     const bool coincident = has_coincident_vertices(a) || has_coincident_vertices(b);
     const Colours of_a = colours_of(a, coincident);
     const Colours of_b = colours_of(b, coincident);

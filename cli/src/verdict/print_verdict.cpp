@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -147,13 +149,16 @@ void print_comparison(const verify::Comparison& comparison, const std::string& a
     if (more > 0) print("and {} more differences\n", grouped(more));
     constexpr std::array<std::string_view, 3> answers{"identical", "the same up to numbering",
                                                       "different"};
-    std::string_view only;
-    if (comparison.only_index_base_differs) {
-        only = ": one counts from 0, the other from 1, and nothing else differs";
-    } else if (comparison.only_signs_of_zeros_differ) {
-        only = ": some zeros have another sign, and nothing else differs";
+    std::vector<std::string_view> reasons;
+    if (comparison.index_base_differs) reasons.push_back("one counts from 0, the other from 1");
+    if (comparison.signs_of_zeros_differ) reasons.push_back("some zeros have another sign");
+    if (comparison.zero_tags_differ) {
+        reasons.push_back("one has markers or region tags that are all 0, the other has none");
     }
-    print("{}, {}: {}{}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)], only);
+    print("{}, {}: {}{}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)],
+          reasons.empty()
+              ? ""
+              : fmt::format(": {}, and nothing else differs", fmt::join(reasons, "; ")));
 }
 
 }  // namespace octetra::cli

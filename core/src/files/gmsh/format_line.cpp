@@ -21,11 +21,13 @@ namespace {
 
 /// Advances to the first line after any sections of comments.
 void pass_over_comments(LineReader& reader) {
-    while (reader.next() && reader.line() == "$Comments") {
+    while (reader.next()) {
+        if (reader.line() != "$Comments") return;
         do {
             if (!reader.next()) reader.fail("the file ends within the section 'Comments'");
         } while (reader.line() != "$EndComments");
     }
+    reader.fail("the file ends where the section $MeshFormat should be");
 }
 
 }  // namespace
@@ -38,8 +40,13 @@ FormatLine read_format_line(LineReader& reader) {
             "-format msh41 -o NEW.msh");
     }
     if (reader.line() != "$MeshFormat") {
+        if (reader.line().starts_with("MFEM")) {
+            reader.fail("this is a mesh of MFEM; of .msh files only those of Gmsh are read");
+        }
         reader.fail(
-            fmt::format("a Gmsh file begins with $MeshFormat, not {}", shown(reader.line())));
+            fmt::format("the first section of a Gmsh file, after comments, is $MeshFormat, "
+                        "not {}",
+                        shown(reader.line())));
     }
     if (!reader.next()) reader.fail("the file ends where its version should be");
     Fields fields(reader);

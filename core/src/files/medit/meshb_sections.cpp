@@ -14,8 +14,12 @@ MeshbSections::MeshbSections(ByteReader& reader) : reader_(&reader) {
     reader_->swap_bytes(one == 0x01000000);
     if (one != 1 && !reader_->swaps_bytes()) {
         constexpr std::array text{'M', 'e', 's', 'h'};  // MeshVersionFormatted
-        if (std::bit_cast<std::array<char, 4>>(one) == text) {
-            reader_->fail("this is a text file: name it .mesh", 0);
+        constexpr std::array mfem{'M', 'F', 'E', 'M'};
+        const auto begin = std::bit_cast<std::array<char, 4>>(one);
+        if (begin == text) reader_->fail("this is a text file: name it .mesh", 0);
+        if (begin == mfem) {
+            reader_->fail("this is a mesh of MFEM; of .meshb files only those of Medit are read",
+                          0);
         }
         reader_->fail(fmt::format("a binary Medit file begins with the number 1, of 32 bits in "
                                   "either byte order, not with {}",

@@ -27,10 +27,10 @@ struct Difference {
 
 struct Comparison {
     Likeness likeness = Likeness::identical;
-    /// The meshes would be identical if both had the same index base.
-    bool only_index_base_differs = false;
-    /// The meshes would be identical if coordinates and attributes of -0 were 0.
-    bool only_signs_of_zeros_differ = false;
+    /// The differences of meshes that are the same up to numbering, if there are no others:
+    bool index_base_differs = false;     ///< the first number in files
+    bool signs_of_zeros_differ = false;  ///< of coordinates or attributes
+    bool zero_tags_differ = false;       ///< one has a list of tags that are all 0, the other none
     std::uint64_t difference_count = 0;
     std::vector<Difference> differences;  ///< the first ones of each kind, by coordinates
 };

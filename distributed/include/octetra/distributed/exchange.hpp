@@ -101,7 +101,9 @@ void update_copies(const Communicator& processes, const Sharing<I>& sharing,
 /// Collective. Replaces the owner's value of each entity by operation(value, copy) for the value of
 /// every copy, in the order of ranks; the copies are unchanged. With an operation that is
 /// commutative and associative, such as a minimum, the result does not depend on the number of
-/// processes. Throws as update_copies() does.
+/// processes. Throws as update_copies() does, also if processes pass operations of different types.
+/// Operations of one type are not compared: their state, such as captured variables, must be the
+/// same on all processes.
 template <class I, class T, class Operation>
 void combine_at_owner(const Communicator& processes, const Sharing<I>& sharing,
                       std::size_t entity_count, std::span<T> values, Operation operation,

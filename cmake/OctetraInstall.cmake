@@ -5,12 +5,12 @@ include(CMakePackageConfigHelpers)
 
 set(octetra_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Octetra)
 
-# octetra_install_layer(<name> [REQUIRES <package>...] [PRIVATE_PACKAGES <package>...]
-#                       [PRIVATE_LIBRARIES <flag>...])
-# Packages have the names of pkg-config. REQUIRES are those of the interface; private packages and
+# octetra_install_layer(<name> [REQUIRES <package>...] [CFLAGS <flag>...] [LIBRARIES <flag>...]
+#                       [PRIVATE_PACKAGES <package>...] [PRIVATE_LIBRARIES <flag>...])
+# Packages have the names of pkg-config. REQUIRES, CFLAGS and LIBRARIES are those of the interface; private packages and
 # libraries are relevant only for linking a static library.
 function(octetra_install_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "REQUIRES;PRIVATE_PACKAGES;PRIVATE_LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "REQUIRES;CFLAGS;LIBRARIES;PRIVATE_PACKAGES;PRIVATE_LIBRARIES")
   # A shared library finds the layers that it depends on in its own folder, so programs need not
   # list them.
   set(run_path $ORIGIN ${CMAKE_INSTALL_RPATH})
@@ -25,13 +25,15 @@ function(octetra_install_layer name)
           DESTINATION ${octetra_package_dir})
 
   set(requires ${layer_REQUIRES})
-  set(libraries -loctetra_${name})
+  set(libraries -loctetra_${name} ${layer_LIBRARIES})
   if(NOT BUILD_SHARED_LIBS)
     list(APPEND requires ${layer_PRIVATE_PACKAGES})
     list(APPEND libraries ${layer_PRIVATE_LIBRARIES})
   endif()
   list(JOIN requires " " PC_REQUIRES)
   list(JOIN libraries " " PC_LIBRARIES)
+  list(PREPEND layer_CFLAGS "-I\${includedir}")
+  list(JOIN layer_CFLAGS " " PC_CFLAGS)
   file(RELATIVE_PATH PC_PREFIX /usr/${CMAKE_INSTALL_LIBDIR}/pkgconfig /usr)
   string(REGEX REPLACE "/$" "" PC_PREFIX ${PC_PREFIX})
   set(PC_NAME ${name})

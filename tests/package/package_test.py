@@ -246,7 +246,7 @@ class Package(unittest.TestCase):
         for file in prefix.rglob("*.pc"):
             for kind in ("--print-requires", "--print-requires-private"):
                 for package in run("pkg-config", kind, file).split():
-                    self.assertRegex(package, "^(octetra-.*|ompi-cxx|PETSc|dolfinx_real)$", file)
+                    self.assertRegex(package, "^(octetra-.*|ompi-cxx|mpich|PETSc|dolfinx_real)$", file)
         self.build_and_run_examples(
             prefix, "-DCMAKE_BUILD_TYPE=Release",
             *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{p}=ON" for p in ("fmt", "ZLIB", "SerialHDF5", "METIS")),

@@ -20,6 +20,7 @@
 #include <octetra/distributed/estimator_marks.hpp>
 #include <octetra/distributed/mpi.hpp>
 #include <octetra/petsc/to_plex.hpp>
+#include <octetra/petsc/versions.hpp>
 
 namespace od = octetra::distributed;
 namespace op = octetra::petsc;
@@ -73,7 +74,7 @@ void set_problem(DM plex) {
     const PetscInt one = 1;
     check(DMAddBoundary(plex, DM_BC_ESSENTIAL, "wall", boundary, 1, &one, 0, 0, nullptr,
                         reinterpret_cast<void (*)()>(zero), nullptr, nullptr, nullptr));
-    check(DMPlexSetSNESLocalFEM(plex, nullptr, nullptr, nullptr));
+    check(op::set_snes_local_fem(plex));
 }
 
 // Returns the solution at each vertex of this process, by the mesh's local numbers.

@@ -7,6 +7,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/petsc/from_plex.hpp>
+#include <octetra/petsc/versions.hpp>
 #include <octetra/verify/compare.hpp>
 #include <octetra/verify/verify.hpp>
 
@@ -171,11 +172,9 @@ TEST(PlexOfPetsc, OfAnotherKindIsRefused) {
         return test::thrown_by<InputError>([&] { (void)from_plex(owned); });
     };
     DM dm = nullptr;
-    must(DMPlexCreateBoxMesh(PETSC_COMM_WORLD, 2, PETSC_FALSE, nullptr, nullptr, nullptr, nullptr,
-                             PETSC_TRUE, &dm));
+    must(create_box_mesh(PETSC_COMM_WORLD, 2, PETSC_FALSE, &dm));
     EXPECT_THAT(refused(dm), testing::HasSubstr("dimension 2"));
-    must(DMPlexCreateBoxMesh(PETSC_COMM_WORLD, 3, PETSC_FALSE, nullptr, nullptr, nullptr, nullptr,
-                             PETSC_TRUE, &dm));
+    must(create_box_mesh(PETSC_COMM_WORLD, 3, PETSC_FALSE, &dm));
     EXPECT_THAT(refused(dm), testing::HasSubstr("is not a tetrahedron"));
     must(DMDACreate1d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, 8, 1, 1, nullptr, &dm));
     must(DMSetUp(dm));

@@ -4,6 +4,7 @@
 #include <petscsnes.h>
 
 #include <octetra/distributed/exchange.hpp>
+#include <octetra/petsc/versions.hpp>
 
 #include "petsc/plex_support.hpp"
 
@@ -80,7 +81,7 @@ TEST_P(PlexElements, SolveForALinearFunctionExactly) {
     Vec u = nullptr;
     must(SNESCreate(PETSC_COMM_WORLD, &solver));
     must(SNESSetDM(solver, plex));
-    must(DMPlexSetSNESLocalFEM(plex, nullptr, nullptr, nullptr));
+    must(set_snes_local_fem(plex));
     KSP ksp = nullptr;
     PC preconditioner = nullptr;
     must(SNESGetKSP(solver, &ksp));

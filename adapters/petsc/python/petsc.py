@@ -61,6 +61,6 @@ def from_plex(plex: Any, *, cells: str = "Cell Sets", faces: str = "Face Sets",
               edges: str = "Edge Sets") -> FromPlex:
     """Collective. Creates a mesh from a plex of tetrahedra, with labels of these names as tags. Cells stay on their
     ranks; cells of an overlap are taken on the rank that owns them."""
-    if not isinstance(plex, PETSc.DM):
+    if not isinstance(plex, PETSc.DM):  # type: ignore[attr-defined]
         raise TypeError("plex must be a DM of petsc4py")
     return FromPlex(*_petsc.from_plex(plex, cells, faces, edges))

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/petsc/versions.hpp>
 
 namespace octetra::petsc {
 
@@ -12,8 +13,8 @@ void check(PetscErrorCode code) {
     if (code == 0) return;
     if (code == PETSC_ERR_MEM) throw std::bad_alloc();
     const char* kind = nullptr;
-    char* words = nullptr;
-    (void)PetscErrorMessage(code, &kind, &words);
+    const char* words = nullptr;
+    (void)error_message(code, &kind, &words);
     throw SystemError(fmt::format("PETSc: {} ({})", words == nullptr ? "" : words,
                                   kind == nullptr ? "unknown error" : kind));
 }

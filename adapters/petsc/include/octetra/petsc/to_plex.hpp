@@ -17,7 +17,7 @@ struct PlexLabels {
     std::string faces = "Face Sets";  ///< markers of tagged facets
     std::string edges = "Edge Sets";  ///< markers of tagged edges
     /// 1 on faces on the boundary of the whole mesh, tagged or not. Ignored by from_plex().
-    /// (DMPlexMarkBoundaryFaces() of PETSc 3.18 also marks faces between processes.)
+    /// (DMPlexMarkBoundaryFaces() also marks faces between processes before PETSc 3.19.)
     std::string boundary = "boundary";
 };
 

@@ -39,9 +39,14 @@ function(octetra_python_extension target name)
     OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python/octetra
     CXX_VISIBILITY_PRESET hidden INSTALL_RPATH "${run_path}")
   install(TARGETS ${target} LIBRARY DESTINATION ${OCTETRA_PYTHON_SITE}/octetra COMPONENT python)
-  foreach(file IN LISTS extension_FILES)
+  octetra_python_files(octetra ${extension_FILES})
+endfunction()
+
+# octetra_python_files(<package> <file>...): files of a package of the module, in the build tree and installed.
+function(octetra_python_files package)
+  foreach(file IN LISTS ARGN)
     cmake_path(GET file FILENAME file_name)
-    configure_file(${file} ${PROJECT_BINARY_DIR}/python/octetra/${file_name} COPYONLY)
-    install(FILES ${file} DESTINATION ${OCTETRA_PYTHON_SITE}/octetra COMPONENT python)
+    configure_file(${file} ${PROJECT_BINARY_DIR}/python/${package}/${file_name} COPYONLY)
+    install(FILES ${file} DESTINATION ${OCTETRA_PYTHON_SITE}/${package} COMPONENT python)
   endforeach()
 endfunction()

@@ -25,6 +25,50 @@ import octetra.dolfinx
 world = MPI.COMM_WORLD
 
 
+# ---- calls that differ between versions of DOLFINx
+
+VERSION = tuple(int(word) for word in dolfinx.__version__.split(".")[:2])
+IS_OLD = VERSION < (0, 9)  # 0.5
+if not IS_OLD:
+    import basix.ufl
+
+
+def function_space(domain, kind, degree):
+    make = dolfinx.fem.FunctionSpace if IS_OLD else dolfinx.fem.functionspace
+    return make(domain, (kind, degree))
+
+
+def partitioner_with_ghosts():
+    links = () if VERSION < (0, 11) else (2,)  # cells at a facet
+    return dolfinx.mesh.create_cell_partitioner(dolfinx.mesh.GhostMode.shared_facet, *links)
+
+
+def created(points, cells):
+    """A mesh with ghosts behind faces, which jumps require."""
+    if IS_OLD:
+        return dolfinx.mesh.create_mesh(world, cells, points,
+                                        ufl.Mesh(ufl.VectorElement("Lagrange", "tetrahedron", 1)))
+    element = basix.ufl.element("Lagrange", "tetrahedron", 1, shape=(3,))
+    return dolfinx.mesh.create_mesh(world, cells=cells, x=points, e=element, partitioner=partitioner_with_ghosts())
+
+
+def bisected(domain, marks):
+    """The mesh that DOLFINx makes of the marked cells, distributed anew."""
+    domain.topology.create_entities(1)
+    edges = dolfinx.mesh.compute_incident_entities(
+        domain if IS_OLD else domain.topology, np.flatnonzero(marks).astype(np.int32), 3, 1)
+    if IS_OLD:
+        return dolfinx.mesh.refine(domain, edges, redistribute=True)
+    return dolfinx.mesh.refine(domain, edges, partitioner=partitioner_with_ghosts())[0]
+
+
+def solution_of(a, right, fixed):
+    options = {"petsc_options": {"ksp_type": "cg", "pc_type": "gamg", "ksp_rtol": 1e-10}}
+    if VERSION >= (0, 10):
+        options["petsc_options_prefix"] = "poisson_"
+    return dolfinx.fem.petsc.LinearProblem(a, right, bcs=[fixed], **options).solve()
+
+
 # ---- the problem
 
 def solution(x):
@@ -33,7 +77,7 @@ def solution(x):
 
 
 def gradient(x):
-    theta = ufl.atan_2(x[1], x[0])
+    theta = (ufl.atan_2 if IS_OLD else ufl.atan2)(x[1], x[0])
     theta = ufl.conditional(theta < 0, theta + 2 * np.pi, theta)
     size = 2 / 3 * (x[0] ** 2 + x[1] ** 2) ** (-1 / 6)
     return ufl.as_vector([-size * ufl.sin(theta / 3), size * ufl.cos(theta / 3), 0])
@@ -61,15 +105,13 @@ def coarse_mesh():
 # ---- solve, estimate, mark
 
 def solve(domain):
-    space = dolfinx.fem.FunctionSpace(domain, ("Lagrange", 1))
+    space = function_space(domain, "Lagrange", 1)
     known = dolfinx.fem.Function(space)
     known.interpolate(solution)
     fixed = dolfinx.fem.dirichletbc(known, dolfinx.fem.locate_dofs_geometrical(space, on_sides))
     u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
     zero = dolfinx.fem.Constant(domain, 0.0)
-    options = {"ksp_type": "cg", "pc_type": "gamg", "ksp_rtol": 1e-10}
-    uh = dolfinx.fem.petsc.LinearProblem(ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx, zero * v * ufl.dx,
-                                         [fixed], petsc_options=options).solve()
+    uh = solution_of(ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx, zero * v * ufl.dx, fixed)
     uh.x.scatter_forward()
     return uh
 
@@ -77,7 +119,7 @@ def solve(domain):
 def estimate(uh):
     """Returns the squared indicators of the cells of this rank, from jumps of the normal derivative."""
     domain = uh.function_space.mesh
-    constants = dolfinx.fem.FunctionSpace(domain, ("DG", 0))
+    constants = function_space(domain, "DG", 0)
     w = ufl.TestFunction(constants)
     area, n = ufl.FacetArea(domain), ufl.FacetNormal(domain)
     z = ufl.SpatialCoordinate(domain)[2]
@@ -87,8 +129,8 @@ def estimate(uh):
             + area ** 0.5 * flow ** 2 * w * ufl.ds(metadata={"quadrature_degree": 0}))
     eta = dolfinx.fem.petsc.assemble_vector(dolfinx.fem.form(form))
     eta.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
-    unknown_of_cell = constants.dofmap.list.array[:domain.topology.index_map(3).size_local]
-    return eta.array[unknown_of_cell]
+    unknowns = constants.dofmap.list.array if IS_OLD else constants.dofmap.list[:, 0]
+    return eta.array[unknowns[:domain.topology.index_map(3).size_local]]
 
 
 def mark(eta):
@@ -116,10 +158,7 @@ class RefinedByDolfinx:
         self.domain = domain
 
     def refine(self, marks):
-        self.domain.topology.create_entities(1)
-        edges = dolfinx.mesh.compute_incident_entities(
-            self.domain, np.flatnonzero(marks).astype(np.int32), 3, 1)
-        self.domain = dolfinx.mesh.refine(self.domain, edges, redistribute=True)
+        self.domain = bisected(self.domain, marks)
 
 
 class RefinedByOctetra:
@@ -145,8 +184,7 @@ def main():
     parser.add_argument("--steps", type=int, default=6)
     options = parser.parse_args()
     points, cells = coarse_mesh()
-    domain = dolfinx.mesh.create_mesh(world, cells, points,
-                                      ufl.Mesh(ufl.VectorElement("Lagrange", "tetrahedron", 1)))
+    domain = created(points, cells)
     kind = RefinedByOctetra if options.refine == "octetra" else RefinedByDolfinx
     refined = kind(domain)
     say(f"{'cells':>10} {'unknowns':>10} {'H1 error':>10} {'estimator':>10} {'rate':>7} {'most/mean':>9} "

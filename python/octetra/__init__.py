@@ -32,6 +32,7 @@ from ._octetra import (
     from_arrays as from_arrays,
     load as load,
     load_with_fields as load_with_fields,
+    orientations as orientations,
     read as read,
     saved_state as saved_state,
 )

@@ -1,4 +1,5 @@
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,7 +11,8 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
-
+#include <octetra/core/orientation.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/mesh_part.hpp>
 
 #include "arguments.hpp"
@@ -93,6 +95,29 @@ MeshPointer mesh_of(const Arguments& arguments) {
     });
 }
 
+/// The orientations of cells, given by rows in an array of points.
+py::array orientations(const Arguments& arguments) {
+    const auto [given_points, given_cells] = arguments.values<2>();
+    const auto points = values_of<Point>("points", given_points);
+    const auto cells = values_of<std::array<std::uint64_t, 4>>("cells", given_cells);
+    std::vector<std::int8_t> signs;
+    signs.reserve(cells.size());
+    const StandardArithmetic standard;
+    for (const auto& cell : cells) {
+        std::array<Point, 4> corners;
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (cell[k] >= points.size()) {
+                throw InputError(fmt::format("cells: no point {}, there are {} points",
+                                             static_cast<std::int64_t>(cell[k]), points.size()));
+            }
+            corners[k] = points[cell[k]];
+        }
+        signs.push_back(
+            static_cast<std::int8_t>(orientation(corners[0], corners[1], corners[2], corners[3])));
+    }
+    return array_of(std::move(signs));
+}
+
 }  // namespace
 
 void bind_from_arrays(py::module_& module) {
@@ -115,6 +140,11 @@ void bind_from_arrays(py::module_& module) {
         "Raises InputError if ranks contradict each other, also in the coordinates, marker or "
         "attributes of a vertex. Not detected is a cell that two ranks pass; Mesh.verify() detects "
         "it.");
+    def_function(
+        module, "orientations", "points, cells", orientations,
+        "Returns the orientation of cells, int8 (cells,): 1 for a positively oriented cell, -1 for "
+        "an inverted one, 0 for a flat one. points: (n, 3). cells: (cells, 4), rows of points. The "
+        "result is exact: it does not depend on rounding.");
 }
 
 }  // namespace octetra::python

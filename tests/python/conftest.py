@@ -73,6 +73,13 @@ def mesh(cube):
     return octetra.read(cube)
 
 
+@pytest.fixture
+def composite(folder):
+    """A mesh of two regions, with marked facets on its sides and between the regions."""
+    command("generate", "two-material", "-o", folder / "composite.mesh")
+    return octetra.read(folder / "composite.mesh")
+
+
 def centroids(mesh):
     return mesh.points[mesh.cells].mean(axis=1)
 

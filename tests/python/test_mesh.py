@@ -2,6 +2,7 @@
 
 import gc
 import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -98,6 +99,30 @@ def test_one_tetrahedron_is_made_of_lists(folder):
     assert mesh.count_cells() == 8
     assert mesh.regions.tolist() == [7] * (8 if mine else 0)
     assert mesh.verify()
+
+
+def exact_sign(corners):
+    """Of the determinant of the three edges from the first corner, in fractions."""
+    (a, b, c), (d, e, f), (g, h, i) = [[Fraction(x) - Fraction(y) for x, y in zip(corner, corners[0])]
+                                       for corner in corners[1:].tolist()]
+    volume = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    return (volume > 0) - (volume < 0)
+
+
+def test_orientations_are_exact_where_rounding_has_the_wrong_sign():
+    random = np.random.default_rng(1)
+    corners = random.random((400, 4, 3))
+    corners[:, 3] = corners[:, :3].mean(axis=1)  # flat, but for rounding
+    corners[::2, 3, 2] = np.nextafter(corners[::2, 3, 2], 2)
+    expected = [exact_sign(cell) for cell in corners]
+    cells = np.arange(1600).reshape(-1, 4)
+    found = octetra.orientations(corners.reshape(-1, 3), cells)
+    assert found.dtype == np.int8 and found.tolist() == expected
+    assert (np.sign(np.linalg.det(corners[:, 1:] - corners[:, :1])) != expected).any()
+    assert octetra.orientations(np.eye(4, 3), [[3, 0, 1, 2], [0, 3, 1, 2]]).tolist() == [1, -1]
+    assert octetra.orientations(np.zeros((4, 3)), [[0, 1, 2, 3]]).tolist() == [0]
+    with pytest.raises(octetra.InputError, match="no point 4"):
+        octetra.orientations(np.zeros((4, 3)), [[0, 1, 2, 4]])
 
 
 def test_a_mesh_tells_its_communicator_attributes_and_markers(folder):

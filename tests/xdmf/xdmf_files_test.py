@@ -165,7 +165,7 @@ class ByDolfinx(Case):
 
 if reader == "dolfinx":
     if dolfinx_reader == "none":
-        print("skipped: DOLFINx, Debian's libdolfinx-real-dev, is not installed, or this is a build with sanitizers")
+        print("skipped: no DOLFINx 0.5 (Debian 12: libdolfinx-real-dev), or a build with sanitizers")
         sys.exit(77)
 else:
     try:

@@ -51,9 +51,7 @@ void bisect_by_sorting(std::span<WeighedPoint> points, int begin, int end, std::
 void expect_as_by_sorting(const std::vector<WeighedPoint>& points,
                           std::initializer_list<int> numbers_of_parts = {1, 2, 3, 5, 8, 40}) {
     for (const int parts : numbers_of_parts) {
-        LocalFailure failure;
-        const auto found = bisect_coordinates(Communicator(), points, parts, failure);
-        ASSERT_FALSE(failure.found());
+        const auto found = bisect_coordinates(Communicator(), points, parts);
         std::vector<WeighedPoint> sorted = points;
         std::vector<int> expected(points.size());
         bisect_by_sorting(sorted, 0, parts, expected);
@@ -139,8 +137,7 @@ TEST(CoordinateBisection, CutsACubeBetweenItsLastLayers) {
         const auto at = [&](std::uint64_t k) { return static_cast<double>(k % 8) / 7; };
         points.push_back({.point = {1.01 * at(i), at(i / 8), at(i / 64)}, .number = i});
     }
-    LocalFailure failure;
-    const auto parts = bisect_coordinates(Communicator(), points, 2, failure);
+    const auto parts = bisect_coordinates(Communicator(), points, 2);
     EXPECT_TRUE(std::ranges::is_sorted(parts));
     EXPECT_EQ(std::ranges::count(parts, 0), 256);
 }

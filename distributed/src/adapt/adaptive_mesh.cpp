@@ -13,7 +13,6 @@
 
 #include "adapt/marks.hpp"
 #include "adapt/mesh_state.hpp"
-#include "comm/local_failure.hpp"
 #include "numbering/cell_numbers.hpp"
 #include "topology/face_neighbours.hpp"
 #include "topology/find_ghosts.hpp"
@@ -78,16 +77,13 @@ Adaptation AdaptiveMesh::refine(std::span<const std::uint8_t> marks, const StepO
 Adaptation AdaptiveMesh::refine(const std::function<StepRequest()>& request) {
     StepRequest wanted;
     // If all cells are marked on all processes, no closure is needed.
-    bool all_here = false;
-    LocalFailure failure;
-    failure.attempt([&] {
+    const bool are_all = processes().transaction([&] {
         wanted = request();
-        all_here = wanted.marks.size() == cells().size() &&
-                   std::ranges::find(wanted.marks, 0) == wanted.marks.end();
+        const bool are_all_here = wanted.marks.size() == cells().size() &&
+                                  std::ranges::find(wanted.marks, 0) == wanted.marks.end();
+        return processes().max(are_all_here ? 0 : 1) == 0;
     });
-    const std::uint64_t most = failure.max_unless_failed(processes(), all_here ? 0 : 1);
-    if (most == LocalFailure::somewhere) failure.agree(processes());
-    if (most == 0) return refine(Selection{.all = true}, wanted.options);
+    if (are_all) return refine(Selection{.all = true}, wanted.options);
     return state_->refine([&] { return marked_by_bytes(state_->mesh, wanted.marks); },
                           wanted.options);
 }
@@ -183,10 +179,11 @@ std::size_t AdaptiveMesh::attributes_per_vertex() const {
     return state_->mesh.attributes_per_point;
 }
 std::vector<std::uint64_t> AdaptiveMesh::cell_numbers() const {
-    return distributed::cell_numbers(state_->mesh);
+    return processes().transaction([&] { return distributed::cell_numbers(state_->mesh); });
 }
 IndexMap<CellIndex> AdaptiveMesh::cell_index_map() const {
-    return make_index_map(processes(), Sharing<CellIndex>(), cells().size());
+    return processes().transaction(
+        [&] { return make_index_map(processes(), Sharing<CellIndex>(), cells().size()); });
 }
 
 std::uint64_t AdaptiveMesh::vertex_count() const { return state_->numbers.vertex_count; }
@@ -199,19 +196,27 @@ const std::vector<GroupName>& AdaptiveMesh::group_names() const {
 const Sharing<VertexIndex>& AdaptiveMesh::vertex_sharing() const { return state_->sharing; }
 
 std::vector<BoundaryFace> AdaptiveMesh::boundary() const { return find_boundary(state_->mesh); }
-FaceNeighbours AdaptiveMesh::face_neighbours() const { return find_face_neighbours(state_->mesh); }
+FaceNeighbours AdaptiveMesh::face_neighbours() const {
+    return processes().transaction([&] { return find_face_neighbours(state_->mesh); });
+}
 MeshEdges AdaptiveMesh::number_edges() const {
-    return distributed::number_edges(state_->mesh, state_->numbers, state_->sharing.shared());
+    return processes().transaction([&] {
+        return distributed::number_edges(state_->mesh, state_->numbers, state_->sharing.shared());
+    });
 }
 MeshFaces AdaptiveMesh::number_faces() const {
-    return distributed::number_faces(state_->mesh, state_->numbers, state_->sharing.shared());
+    return processes().transaction([&] {
+        return distributed::number_faces(state_->mesh, state_->numbers, state_->sharing.shared());
+    });
 }
 GhostLayer AdaptiveMesh::ghosts(GhostsBy by) const {
-    return find_ghosts(
-        state_->mesh, state_->numbers, state_->sharing, [&] { return regions(); }, by);
+    return processes().transaction(
+        [&] { return find_ghosts(state_->mesh, state_->numbers, state_->sharing, regions(), by); });
 }
 
-Mesh AdaptiveMesh::collect() const { return collect_copy(state_->mesh).mesh; }
+Mesh AdaptiveMesh::collect() const {
+    return processes().transaction([&] { return collect_copy(state_->mesh).mesh; });
+}
 CanonicalMesh AdaptiveMesh::canonical() const { return CanonicalMesh::of(state_->mesh); }
 
 }  // namespace octetra::distributed

@@ -1,4 +1,3 @@
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -15,8 +14,6 @@
 #include "checkpoint/load.hpp"
 #include "checkpoint/load_fields.hpp"
 #include "checkpoint/save.hpp"
-#include "comm/local_failure.hpp"
-#include "comm/same_arguments.hpp"
 #include "history/cut_marks.hpp"
 #include "history/cut_roots.hpp"
 #include "history/steps_of.hpp"
@@ -45,28 +42,21 @@ std::vector<CutRuns> joined_steps(const CutRoots& cuts, std::size_t root_count,
 /// closure may add marks; the result then differs from the history in the file.
 void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& facts) {
     const Communicator& processes = state.mesh.processes;
-    LocalFailure failure;
-    std::vector<CutRuns> given;
-    std::unique_ptr<CutMarks> marks;
-    failure.attempt([&] {
-        given = joined_steps(cuts, state.mesh.cells.size(), facts.steps.size());
-        marks = std::make_unique<CutMarks>(std::move(cuts));
-    });
-    failure.agree(processes);
+    const auto given = joined_steps(cuts, state.mesh.cells.size(), facts.steps.size());
+    CutMarks marks(std::move(cuts));
     for (std::size_t t = 0; t < facts.steps.size(); ++t) {
-        const bool all = processes.max(marks->next_is_uniform(state.mesh) ? 0 : 1) == 0;
+        const bool all = processes.max(marks.next_is_uniform(state.mesh) ? 0 : 1) == 0;
         const auto next_marks = [&] {
-            return all ? marks->next_of_all(state.mesh) : marks->next(state.mesh);
+            return all ? marks.next_of_all(state.mesh) : marks.next(state.mesh);
         };
-        (void)state.refine(std::ref(next_marks), {});  // a reference allocates nothing
+        (void)state.refine(next_marks, {});
     }
-    failure.attempt([&] {
+    {
         const CanonicalOrder order(state.mesh);
         if (steps_of(state.mesh) != given) {
             throw InputError("its steps are inconsistent with each other or with the cells");
         }
-    });
-    failure.agree(processes);
+    }
     if (processes.sum(state.mesh.cells.size()) != facts.cells_now ||
         state.numbers.vertex_count != facts.vertices_now) {
         throw InputError("its steps produce a mesh of another size than its table states");
@@ -87,49 +77,43 @@ auto with_file_name(const std::filesystem::path& path, auto&& work) {
 void AdaptiveMesh::save(const std::filesystem::path& path, std::span<const Field> fields,
                         const std::optional<SavedState>& state) const {
     const StandardArithmetic standard;
-    LocalFailure failure;
     DistributedMesh& mesh = state_->mesh;
-    std::unique_ptr<CanonicalOrder> order;
-    std::unique_ptr<DistributedMesh> input;
-    std::vector<CutRuns> steps;
-    failure.attempt([&] {
-        order = std::make_unique<CanonicalOrder>(mesh);
-        steps = steps_of(mesh);
-        input = std::make_unique<DistributedMesh>(input_of(mesh));
+    mesh.processes.transaction([&] {
+        const CanonicalOrder order(mesh);
+        const std::vector<CutRuns> steps = steps_of(mesh);
+        const DistributedMesh input = input_of(mesh);
+        distributed::save({.mesh = &mesh,
+                           .cells_before = order.cells_before(),
+                           .numbers = &state_->numbers,
+                           .sharing = &state_->sharing,
+                           .input = &input,
+                           .state = &state,
+                           .steps = steps},
+                          fields, path);
     });
-    failure.agree(mesh.processes);
-    distributed::save({.mesh = &mesh,
-                       .cells_before = order->cells_before(),
-                       .numbers = &state_->numbers,
-                       .sharing = &state_->sharing,
-                       .input = input.get(),
-                       .state = &state,
-                       .steps = steps},
-                      fields, path);
 }
 
 AdaptiveMesh AdaptiveMesh::load(const Communicator& processes, const std::filesystem::path& path,
                                 const Partition& partition, std::vector<Field>* fields) {
     const StandardArithmetic standard;
-    LocalFailure failure;
-    std::unique_ptr<CheckpointReader> file;
-    failure.attempt([&] { file = std::make_unique<CheckpointReader>(path); });
-    agree_on_same(processes, failure, "partition", [&] { return text_of(partition); });
-    LoadedPart part = load_part(processes, *file, path, partition);
-    auto state = with_file_name(path, [&] {
-        auto made = State::make(distribute_parts(processes, std::move(part.input)));
-        made->mesh.features = std::move(part.features);
-        redo(*made, std::move(part.cuts), file->facts());
+    std::vector<Field> loaded;
+    auto state = processes.transaction([&] {
+        const CheckpointReader file(path);
+        processes.check_same("partition", text_of(partition));
+        LoadedPart part = load_part(processes, file, path, partition);
+        auto made = with_file_name(path, [&] {
+            auto of_file = State::make(distribute_parts(processes, std::move(part.input)));
+            of_file->mesh.features = std::move(part.features);
+            redo(*of_file, std::move(part.cuts), file.facts());
+            return of_file;
+        });
+        if (fields != nullptr) {
+            const CanonicalOrder order(made->mesh);
+            loaded = load_fields(made->mesh, order.cells_before(), made->numbers, file);
+        }
         return made;
     });
-    if (fields != nullptr) {
-        std::vector<Field> loaded;
-        processes.transaction([&] {
-            const CanonicalOrder order(state->mesh);
-            loaded = load_fields(state->mesh, order.cells_before(), state->numbers, *file);
-        });
-        *fields = std::move(loaded);
-    }
+    if (fields != nullptr) *fields = std::move(loaded);
     return AdaptiveMesh(std::move(state));
 }
 

@@ -11,7 +11,6 @@
 #include "coarsen/incremental_coarsening.hpp"
 #include "coarsen/kept_vertices.hpp"
 #include "coarsen/removed_vertices.hpp"
-#include "comm/local_failure.hpp"
 #include "level/incremental/adjacency.hpp"
 #include "level/incremental/suits_incremental_level.hpp"
 #include "sharing/sharing_builder.hpp"
@@ -42,14 +41,6 @@ Sharing<VertexIndex> sharing_after(const Sharing<VertexIndex>& sharing, const Ke
     return after;
 }
 
-void describe(std::size_t vertex_count_before, CoarserPart& part, Adaptation& adaptation) {
-    adaptation.changed = true;
-    adaptation.cells = std::move(part.cells);
-    adaptation.facets = std::move(part.facets);
-    adaptation.edges = std::move(part.edges);
-    adaptation.vertex_count_before = vertex_count_before;
-}
-
 /// Coarsens the lists of a process's own part, incrementally or by rebuilding them.
 struct Lists {
     std::unique_ptr<IncrementalCoarsening> incremental;
@@ -77,59 +68,67 @@ struct Lists {
     }
 };
 
+/// The changes of coarsening, ready to be committed.
+struct Coarsening {
+    CoarserPart part;
+    Lists lists;
+    CoarserNumbers numbers;
+    Sharing<VertexIndex> sharing;
+    Adaptation adaptation;
+};
+
+/// Collective. Plans coarsening; returns nothing on all processes if no vertex is removed.
+std::optional<Coarsening> plan_coarsening(AdaptiveMesh::State& state,
+                                          const std::function<MarkedCells()>& mark,
+                                          const Tuning& tuning) {
+    DistributedMesh& mesh = state.mesh;
+    const Communicator& processes = mesh.processes;
+    const MarkedCells marked = mark();
+    Adjacency* const adjacency =
+        suits_incremental_level(mesh, marked, tuning) ? &Adjacency::of(mesh) : nullptr;
+    const KeptVertices kept = find_kept_vertices(mesh, state.sharing, marked, adjacency);
+    const auto removed_count = static_cast<std::uint64_t>(std::ranges::count(kept, 0));
+    if (processes.max(removed_count) == 0) return std::nullopt;
+
+    Coarsening coarsening;
+    CoarserPart& part = coarsening.part;
+    Adaptation& adaptation = coarsening.adaptation;
+    part = coarser_vertices(mesh, kept);
+    coarsening.lists.plan(mesh, kept, tuning, part);
+    adaptation.removed_vertices =
+        removed_vertices(mesh, kept, part, coarsening.lists.incremental != nullptr);
+    drop_empty_levels(mesh, part);
+    coarsening.numbers = coarser_numbers(processes, state.numbers, state.sharing, kept, part);
+    coarsening.sharing =
+        sharing_after(state.sharing, kept, part, state.numbers, coarsening.numbers);
+    adaptation.changed = true;
+    adaptation.cells = std::move(part.cells);
+    adaptation.facets = std::move(part.facets);
+    adaptation.edges = std::move(part.edges);
+    adaptation.vertex_count_before = mesh.points.size();
+    return coarsening;
+}
+
 }  // namespace
 
 Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedCells()>& mark,
                          const Tuning& tuning) {
     const StandardArithmetic standard;
     DistributedMesh& mesh = state.mesh;
-    const Communicator& processes = mesh.processes;
-    const Phase phase(processes, "coarsen");
-    LocalFailure failure;
-    MarkedCells marked;
-    Adjacency* adjacency = nullptr;
-    failure.attempt([&] {
-        marked = mark();
-        if (suits_incremental_level(mesh, marked, tuning)) adjacency = &Adjacency::of(mesh);
-    });
-    const KeptVertices kept = find_kept_vertices(mesh, state.sharing, marked, adjacency, failure);
-    const auto removed_count = static_cast<std::uint64_t>(std::ranges::count(kept, 0));
-    const std::uint64_t most = failure.max_unless_failed(processes, removed_count);
-    if (most == LocalFailure::somewhere) failure.agree(processes);
-    Adaptation adaptation;
-    if (most == 0) {
-        failure.attempt([&] { adaptation = unchanged(mesh); });
-        failure.agree(processes);
-        return adaptation;
-    }
+    const Phase phase(mesh.processes, "coarsen");
+    std::optional<Coarsening> planned =
+        mesh.processes.transaction([&] { return plan_coarsening(state, mark, tuning); });
+    if (!planned) return unchanged(mesh);
 
-    std::optional<CoarserPart> part;
-    Lists lists;
-    failure.attempt([&] {
-        part = coarser_vertices(mesh, kept);
-        lists.plan(mesh, kept, tuning, *part);
-        adaptation.removed_vertices =
-            removed_vertices(mesh, kept, *part, lists.incremental != nullptr);
-    });
-    failure.agree(processes);
-    drop_empty_levels(mesh, *part);
-    const CoarserNumbers numbers =
-        coarser_numbers(processes, state.numbers, state.sharing, kept, *part, failure);
-    failure.agree(processes);
-    std::optional<Sharing<VertexIndex>> sharing;
-    failure.attempt(
-        [&] { sharing = sharing_after(state.sharing, kept, *part, state.numbers, numbers); });
-    failure.agree(processes);
-
+    auto& [part, lists, numbers, sharing, adaptation] = *planned;
     const std::size_t levels_before = mesh.level_begin.size();
-    describe(mesh.points.size(), *part, adaptation);
-    lists.commit(mesh, *part);
-    commit_vertices(mesh, *part);
-    commit_numbers(numbers, *part, state.numbers);
-    adaptation.vertices_before = std::move(part->vertices_before);
-    state.sharing = *std::move(sharing);
+    lists.commit(mesh, part);
+    commit_vertices(mesh, part);
+    commit_numbers(numbers, part, state.numbers);
+    adaptation.vertices_before = std::move(part.vertices_before);
+    state.sharing = std::move(sharing);
     state.step_count -= static_cast<int>(levels_before - mesh.level_begin.size());
-    return adaptation;
+    return std::move(adaptation);
 }
 
 }  // namespace octetra::distributed

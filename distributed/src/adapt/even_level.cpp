@@ -9,7 +9,6 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/even_roots.hpp"
-#include "comm/local_failure.hpp"
 #include "migrate/even_parts.hpp"
 #include "pattern/length_order.hpp"
 
@@ -120,51 +119,32 @@ std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& pla
                                         const CanonicalNumbers* known) {
     const Communicator& processes = mesh.processes;
     if (processes.size() == 1) return std::nullopt;
-    LocalFailure failure;
-    std::uint64_t count = 0;
-    failure.attempt([&] { count = plan.level->cell_count_afterwards(); });
-    failure.agree(processes);
-    const Loads loads(mesh, count);
+    const Loads loads(mesh, plan.level->cell_count_afterwards());
     if (loads.sum > options.max_cells) return std::nullopt;  // bisect_level() throws
     if (!loads.are_uneven(balance, processes.size())) return std::nullopt;
     accumulated_idle += loads.idle_cells(processes.size());
     if (balance.only_if_it_pays && accumulated_idle <= 2 * loads.most_before) return std::nullopt;
     accumulated_idle = 0;
 
-    UnevenLevel level;
-    failure.attempt([&] { level = undo_level(mesh, plan); });
-    failure.agree(processes);
+    UnevenLevel level = undo_level(mesh, plan);
     const auto weigh = [&] { return cells_of_roots_after(mesh, level.marks); };
-    if (auto parts =
-            even_parts_or_roots(mesh, std::ref(weigh), balance, level.roots, known, failure)) {
+    if (auto parts = even_parts_or_roots(mesh, std::ref(weigh), balance, level.roots, known)) {
         level.rank_of_root = *std::move(parts);
         return level;
     }
-    failure.attempt([&] { redo(mesh, plan, std::move(level), options, tuning); });
-    failure.agree(processes);
+    redo(mesh, plan, std::move(level), options, tuning);
     return std::nullopt;
 }
 
 MovedLevel moved_level(const AdaptiveMesh::State& state, const UnevenLevel& level,
                        const RefineOptions& options, const Tuning& tuning) {
-    const Communicator& processes = state.mesh.processes;
-    const Phase phase(processes, "migrate");
+    const Phase phase(state.mesh.processes, "migrate");
     static const std::vector<CellIndex> same;
     const auto& before = level.order == nullptr ? same : level.order->cells_before();
-    MovedLevel moved;
-    LocalFailure failure;
-    std::optional<AdaptiveMesh::State> after =
-        moved_state(state, before, level.rank_of_root, moved.migration);
-    failure.attempt(
-        [&] { moved.state = std::make_unique<AdaptiveMesh::State>(*std::move(after)); });
-    std::vector<EdgeMask> masks;
-    failure.attempt([&] { masks = masks_of(level.marks, before, state.mesh.cells.size()); });
-    failure.agree(processes);
-    masks = moved.migration.cells(std::move(masks));
-    failure.attempt([&] {
-        begin_level(moved.state->mesh, options, tuning, marks_of_masks(masks), moved.plan);
-    });
-    failure.agree(processes);
+    MovedLevel moved{moved_state(state, before, level.rank_of_root), {}};
+    const std::vector<EdgeMask> masks =
+        moved.to.migration.cells(masks_of(level.marks, before, state.mesh.cells.size()));
+    begin_level(moved.to.state->mesh, options, tuning, marks_of_masks(masks), moved.plan);
     return moved;
 }
 

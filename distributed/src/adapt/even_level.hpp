@@ -30,8 +30,9 @@ struct UnevenLevel {
     void keep_mesh() noexcept;
 };
 
-/// Collective. Returns nothing on all processes if the closed level is to be bisected without
-/// migration, because it is even enough or would not become more so; otherwise undoes the level.
+/// Collective, within a transaction. Returns nothing on all processes if the closed level is to be
+/// bisected without migration, because it is even enough or would not become more so; otherwise
+/// undoes the level.
 /// `accumulated_idle`: the sum over uneven levels since the last migration of the cells by which
 /// the most loaded process exceeded the mean, while the others were idle; this level adds to it.
 /// `known`: the global numbers of the mesh's vertices, or null.
@@ -43,13 +44,12 @@ struct UnevenLevel {
                                                       const CanonicalNumbers* known = nullptr);
 
 struct MovedLevel {
-    std::unique_ptr<AdaptiveMesh::State> state;
-    Migration migration;
-    PlannedLevel plan;  ///< a closed level of the mesh of `state`
+    MovedState to;
+    PlannedLevel plan;  ///< a closed level of the mesh of `to.state`
 };
 
-/// Collective. Migrates the roots of a state, in its current order, and begins the level on the
-/// result. `state` itself is unchanged.
+/// Collective, within a transaction. Migrates the roots of a state, in its current order, and
+/// begins the level on the result. `state` itself is unchanged.
 [[nodiscard]] MovedLevel moved_level(const AdaptiveMesh::State& state, const UnevenLevel& level,
                                      const RefineOptions& options, const Tuning& tuning);
 

@@ -16,14 +16,10 @@ struct WeighedParts {
 /// Collective.
 WeighedParts weighed_parts(const DistributedMesh& mesh,
                            const std::function<std::vector<std::uint64_t>()>& weigh,
-                           double most_over_mean, LocalFailure& failure) {
-    std::vector<std::uint64_t> weights;
-    failure.attempt([&] { weights = weigh(); });
-    failure.agree(mesh.processes);
-    WeighedParts weighed{even_parts(mesh, weights, most_over_mean, failure), 0};
-    failure.agree(mesh.processes);
-    weighed.sum = mesh.processes.sum(std::reduce(weights.begin(), weights.end()));
-    return weighed;
+                           double most_over_mean) {
+    const std::vector<std::uint64_t> weights = weigh();
+    auto parts = even_parts(mesh, weights, most_over_mean);
+    return {std::move(parts), mesh.processes.sum(std::reduce(weights.begin(), weights.end()))};
 }
 
 /// Collective. Returns whether any root has more than one cell.
@@ -37,17 +33,15 @@ bool has_heavy_roots(const DistributedMesh& mesh) {
 std::optional<std::vector<int>> even_parts_or_roots(
     DistributedMesh& mesh, const std::function<std::vector<std::uint64_t>()>& weigh,
     const BalanceOptions& balance, std::unique_ptr<CellsAsRoots>& roots,
-    const CanonicalNumbers* known, LocalFailure& failure) {
-    WeighedParts of_roots = weighed_parts(mesh, weigh, balance.most_over_mean, failure);
+    const CanonicalNumbers* known) {
+    WeighedParts of_roots = weighed_parts(mesh, weigh, balance.most_over_mean);
     const double mean = static_cast<double>(of_roots.sum) / mesh.processes.size();
     const bool are_even = of_roots.parts && static_cast<double>(of_roots.parts->most) <=
                                                 balance.most_over_mean * mean;
     if (!are_even && balance.may_forget_history && has_heavy_roots(mesh)) {
-        std::unique_ptr<CellsAsRoots> cells;
-        failure.attempt([&] { cells = std::make_unique<CellsAsRoots>(); });
-        failure.agree(mesh.processes);
+        auto cells = std::make_unique<CellsAsRoots>();
         cells->begin(mesh, known);
-        WeighedParts of_cells = weighed_parts(mesh, weigh, balance.most_over_mean, failure);
+        WeighedParts of_cells = weighed_parts(mesh, weigh, balance.most_over_mean);
         if (of_cells.parts && (!of_roots.parts || of_cells.parts->most < of_roots.parts->most)) {
             roots = std::move(cells);
             return std::move(of_cells.parts->rank_of_root);

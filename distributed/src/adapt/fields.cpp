@@ -1,9 +1,6 @@
-#include <memory>
-
 #include <octetra/distributed/adaptive_mesh.hpp>
 
 #include "adapt/mesh_state.hpp"
-#include "comm/local_failure.hpp"
 #include "fields/read_fields.hpp"
 #include "level/incremental/adjacency.hpp"
 #include "output/write_mesh.hpp"
@@ -12,21 +9,23 @@ namespace octetra::distributed {
 
 std::vector<Field> AdaptiveMesh::read_fields(
     const std::filesystem::path& path, const std::function<void(const std::string&)>& note) const {
-    LocalFailure failure;
-    DistributedMesh& mesh = state_->mesh;
-    std::unique_ptr<CanonicalOrder> order;
-    failure.attempt([&] { order = std::make_unique<CanonicalOrder>(mesh); });
-    failure.agree(mesh.processes);
-    return distributed::read_fields(mesh, order->cells_before(), state_->numbers, path, note);
+    return processes().transaction([&] {
+        const CanonicalOrder order(state_->mesh);
+        return distributed::read_fields(state_->mesh, order.cells_before(), state_->numbers, path,
+                                        note);
+    });
 }
 
 std::string AdaptiveMesh::write(const std::filesystem::path& path, std::span<const Field> fields,
                                 const WriteOptions& options) const {
-    return write_mesh(state_->mesh, state_->numbers, state_->sharing, fields, path, options);
+    return processes().transaction([&] {
+        return write_mesh(state_->mesh, state_->numbers, state_->sharing, fields, path, options);
+    });
 }
 
 void AdaptiveMesh::append_to(MeshSeries& series, double time, std::span<const Field> fields) const {
-    append_mesh(state_->mesh, state_->numbers, state_->sharing, fields, series, time);
+    processes().transaction(
+        [&] { append_mesh(state_->mesh, state_->numbers, state_->sharing, fields, series, time); });
 }
 
 }  // namespace octetra::distributed

@@ -32,15 +32,11 @@ struct AdaptiveMesh::State {
     /// Collective. Performs a step.
     Adaptation refine(const std::function<MarkedCells()>& mark, const StepOptions& options,
                       const Tuning& tuning = {});
-    /// Collective. Commits a level that is ready to be committed, and returns its description.
-    Adaptation take(PlannedLevel& plan);
     /// Records the number of cells before the first level of a profile.
     void note_cells_before_level() const;
-    /// Collective. Reserves capacity for the history that `roots` holds; called before
-    /// replace_by().
-    void reserve_history();
     /// Replaces *this by `after`, the state after migration. If `roots` is not null, cells have
-    /// become the roots, and the previous history is added to `forgotten`.
+    /// become the roots, and the previous history is added to `forgotten`, which must have capacity
+    /// for it.
     void replace_by(State&& after, std::unique_ptr<CellsAsRoots> roots) noexcept;
 };
 
@@ -67,15 +63,23 @@ struct AdaptiveMesh::State {
 [[nodiscard]] Migration migrate_state(AdaptiveMesh::State& state,
                                       std::span<const int> rank_of_root);
 
-/// Collective. Returns the state after the migration of each root of this process to the given
-/// rank. The mesh must be in canonical order; `unordered_cell_ids` has the number of each cell
-/// outside that order, or is empty if it is the same.
-[[nodiscard]] std::optional<AdaptiveMesh::State> moved_state(
-    const AdaptiveMesh::State& state, std::span<const CellIndex> unordered_cell_ids,
-    std::span<const int> rank_of_root, Migration& migration);
+/// The state after a migration.
+struct MovedState {
+    std::unique_ptr<AdaptiveMesh::State> state;  ///< null if nothing moves
+    Migration migration;
+};
 
-/// Collective. Returns the state of a mesh that has only its history, in canonical order.
-[[nodiscard]] std::optional<AdaptiveMesh::State> state_of(DistributedMesh& mesh);
+/// Collective, within a transaction. Returns the state after the migration of each root of this
+/// process to the given rank; `state` itself is unchanged. The mesh must be in canonical order;
+/// `unordered_cell_ids` has the number of each cell outside that order, or is empty if it is the
+/// same.
+[[nodiscard]] MovedState moved_state(const AdaptiveMesh::State& state,
+                                     std::span<const CellIndex> unordered_cell_ids,
+                                     std::span<const int> rank_of_root);
+
+/// Collective, within a transaction. Moves a mesh that has only its history, in canonical order,
+/// into a state. The mesh is unchanged if this throws on any process.
+[[nodiscard]] std::unique_ptr<AdaptiveMesh::State> state_of(DistributedMesh& mesh);
 
 /// Collective. Migrates roots if the processes have too different numbers of cells.
 [[nodiscard]] Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& options);

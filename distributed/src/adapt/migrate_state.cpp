@@ -13,7 +13,6 @@
 #include "adapt/even_roots.hpp"
 #include "adapt/mesh_state.hpp"
 #include "adapt/step_options.hpp"
-#include "comm/local_failure.hpp"
 #include "history/recall_history.hpp"
 #include "history/steps_of.hpp"
 #include "history/tagged_to_history.hpp"
@@ -47,37 +46,23 @@ void check_ranks(const DistributedMesh& mesh, std::span<const int> rank_of_root)
 }
 
 /// Collective. Returns the roots that stay and those received, as one part without interfaces, and
-/// the destinations of the vertices of the input. Returns nothing if this process has failed, and
-/// on all processes if one had failed before.
-std::optional<MergedPart> move_roots(const AdaptiveMesh::State& state,
-                                     std::span<const int> rank_of_root,
-                                     std::vector<VertexDestination>& destinations,
-                                     LocalFailure& failure) {
+/// the destinations of the vertices of the input.
+MergedPart move_roots(const AdaptiveMesh::State& state, std::span<const int> rank_of_root,
+                      std::vector<VertexDestination>& destinations) {
     const DistributedMesh& mesh = state.mesh;
     const Communicator& processes = mesh.processes;
     const Phase phase(processes, "move roots");
     const HasLists has(mesh);
-    std::optional<Departures> departures;  // not a default object, which would allocate
-    std::optional<MergedPart> merged;
-    std::vector<std::vector<std::byte>> outboxes;
-    failure.attempt([&] {
-        departures = departures_of(mesh, rank_of_root);
-        destinations = vertex_destinations(*departures, state.sharing);
-        outboxes = packed_messages(*departures);
-    });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return merged;
-    failure.attempt([&] {
-        std::vector<RootMessage> messages;
-        for (const auto& inbox : processes.all_to_all(outboxes)) {
-            messages.push_back(RootMessage::unpacked(inbox));
-        }
-        outboxes.clear();
-        const Arrivals arrivals =
-            arrivals_of(messages, has, mesh.attributes_per_point, mesh.level_begin.size());
-        messages.clear();
-        merged = merge_parts(mesh, *departures, arrivals, has);
-    });
-    return merged;
+    const Departures departures = departures_of(mesh, rank_of_root);
+    destinations = vertex_destinations(departures, state.sharing);
+    std::vector<RootMessage> messages;
+    for (const auto& inbox : processes.all_to_all(packed_messages(departures))) {
+        messages.push_back(RootMessage::unpacked(inbox));
+    }
+    const Arrivals arrivals =
+        arrivals_of(messages, has, mesh.attributes_per_point, mesh.level_begin.size());
+    messages.clear();
+    return merge_parts(mesh, departures, arrivals, has);
 }
 
 /// The entities that a part shares with others.
@@ -88,80 +73,62 @@ struct Border {
 
 /// Collective. Returns the border of a part whose vertices are numbered. sharing_of(mesh) returns
 /// the sharing of an input.
-std::optional<Border> find_border(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
-                                  auto&& sharing_of, LocalFailure& failure) {
+Border find_border(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                   auto&& sharing_of) {
     const Phase phase(mesh.processes, "find border");
-    std::optional<DistributedMesh> input;
-    failure.attempt([&] { input = input_of(mesh); });
-    failure.agree(mesh.processes);
-    std::optional<Border> border(Border{{}, sharing_of(*input)});
-    const std::vector<Interface> of_input = find_interfaces(*input, border->sharing);
-    SharingBuilder<VertexIndex> shared(border->sharing, mesh.processes.rank());
-    failure.attempt([&] {
-        for (BorderWith& with : border_after_steps(mesh, of_input)) {
-            shared.share(with.interface.rank, std::move(with.midpoints));
-            border->interfaces.push_back(std::move(with.interface));
-        }
-        shared.prepare(
-            [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
-    });
-    failure.agree(mesh.processes);
+    const DistributedMesh input = input_of(mesh);
+    Border border{{}, sharing_of(input)};
+    const std::vector<Interface> of_input = find_interfaces(input, border.sharing);
+    SharingBuilder<VertexIndex> shared(border.sharing, mesh.processes.rank());
+    for (BorderWith& with : border_after_steps(mesh, of_input)) {
+        shared.share(with.interface.rank, std::move(with.midpoints));
+        border.interfaces.push_back(std::move(with.interface));
+    }
+    shared.prepare([&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
     shared.commit();
     return border;
 }
 
-}  // namespace
-
-std::optional<AdaptiveMesh::State> moved_state(const AdaptiveMesh::State& state,
-                                               std::span<const CellIndex> unordered_cell_ids,
-                                               std::span<const int> rank_of_root,
-                                               Migration& migration) {
-    const Communicator& processes = state.mesh.processes;
-    LocalFailure failure;
-    std::vector<VertexDestination> destinations;
-    std::optional<MergedPart> merged = move_roots(state, rank_of_root, destinations, failure);
-    failure.agree(processes);
-    MovedEntities moved;
-    failure.attempt([&] {
-        moved = moved_entities({&state.mesh, rank_of_root, unordered_cell_ids},
-                               {&merged->mesh, merged->rank_of_root}, state.sharing,
-                               std::move(merged->kept_vertices));
-    });
-    failure.agree(processes);
-    auto numbers = moved_numbers(processes, moved, state.numbers.of_vertex);
-    std::optional<AdaptiveMesh::State> after;
-    failure.attempt([&] {
-        after.emplace();
-        after->mesh = std::move(merged->mesh);
-        after->numbers = {std::move(numbers), state.numbers.vertex_count};
-        after->step_count = state.step_count;
-        migration = Migration(processes, std::move(moved.partners), std::move(moved.cells),
-                              std::move(moved.vertices));
-    });
-    failure.agree(processes);
-    const auto sharing_of = [&](const DistributedMesh& input) {
-        return moved_sharing(input, state.sharing, state.mesh.input_vertices, destinations);
-    };
-    std::optional<Border> border = find_border(after->mesh, after->numbers, sharing_of, failure);
-    after->mesh.interfaces = std::move(border->interfaces);
-    after->sharing = std::move(border->sharing);
-    return after;
+/// Replaces a state, whose mesh `order` has put into canonical order, by that after a migration.
+/// Returns the migration.
+Migration replace(AdaptiveMesh::State& state, CanonicalOrder& order, MovedState after,
+                  std::unique_ptr<CellsAsRoots> roots) noexcept {
+    order.keep();
+    state.replace_by(std::move(*after.state), std::move(roots));
+    return std::move(after.migration);
 }
 
-std::optional<AdaptiveMesh::State> state_of(DistributedMesh& mesh) {
-    LocalFailure failure;
-    CanonicalNumbers numbers;
-    {
-        const Phase phase(mesh.processes, "number vertices");
-        numbers = canonical_numbers(mesh);
-    }
+}  // namespace
+
+MovedState moved_state(const AdaptiveMesh::State& state,
+                       std::span<const CellIndex> unordered_cell_ids,
+                       std::span<const int> rank_of_root) {
+    const Communicator& processes = state.mesh.processes;
+    std::vector<VertexDestination> destinations;
+    MergedPart merged = move_roots(state, rank_of_root, destinations);
+    MovedEntities moved = moved_entities({&state.mesh, rank_of_root, unordered_cell_ids},
+                                         {&merged.mesh, merged.rank_of_root}, state.sharing,
+                                         std::move(merged.kept_vertices));
+    auto after = std::make_unique<AdaptiveMesh::State>();
+    after->numbers = {moved_numbers(processes, moved, state.numbers.of_vertex),
+                      state.numbers.vertex_count};
+    after->mesh = std::move(merged.mesh);
+    after->step_count = state.step_count;
+    Border border = find_border(after->mesh, after->numbers, [&](const DistributedMesh& input) {
+        return moved_sharing(input, state.sharing, state.mesh.input_vertices, destinations);
+    });
+    after->mesh.interfaces = std::move(border.interfaces);
+    after->sharing = std::move(border.sharing);
+    return {std::move(after), Migration(processes, std::move(moved.partners),
+                                        std::move(moved.cells), std::move(moved.vertices))};
+}
+
+std::unique_ptr<AdaptiveMesh::State> state_of(DistributedMesh& mesh) {
+    auto state = std::make_unique<AdaptiveMesh::State>();
+    state->numbers =
+        in_phase(mesh.processes, "number vertices", [&] { return canonical_numbers(mesh); });
     const auto sharing_of = [](const DistributedMesh& input) { return find_vertex_sharing(input); };
-    std::optional<Border> border = find_border(mesh, numbers, sharing_of, failure);
-    std::optional<AdaptiveMesh::State> state;
-    failure.attempt([&] { state.emplace(); });
-    failure.agree(mesh.processes);
-    state->numbers = std::move(numbers);
-    state->sharing = std::move(border->sharing);
+    state->sharing = find_border(mesh, state->numbers, sharing_of).sharing;
     state->step_count = static_cast<int>(mesh.level_begin.size());
     state->mesh = std::move(mesh);
     return state;
@@ -171,76 +138,64 @@ Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of
     const StandardArithmetic standard;
     const Communicator& processes = state.mesh.processes;
     const Phase phase(processes, "migrate");
-    LocalFailure failure;
-    failure.attempt([&] { check_ranks(state.mesh, rank_of_root); });
-    failure.agree(processes);
-    const auto stays = [&](int rank) { return rank == processes.rank(); };
-    if (processes.max(std::ranges::all_of(rank_of_root, stays) ? 0 : 1) == 0)
-        return unmoved(state.mesh);
-
     std::optional<CanonicalOrder> order;
-    failure.attempt([&] { order.emplace(state.mesh); });
-    failure.agree(processes);
-    Migration migration;
-    std::optional<AdaptiveMesh::State> after =
-        moved_state(state, order->cells_before(), rank_of_root, migration);
-    order->keep();
-    state.replace_by(*std::move(after), nullptr);
-    return migration;
+    MovedState after = processes.transaction([&]() -> MovedState {
+        check_ranks(state.mesh, rank_of_root);
+        const auto stays = [&](int rank) { return rank == processes.rank(); };
+        if (processes.max(std::ranges::all_of(rank_of_root, stays) ? 0 : 1) == 0) {
+            return {nullptr, unmoved(state.mesh)};
+        }
+        order.emplace(state.mesh);
+        return moved_state(state, order->cells_before(), rank_of_root);
+    });
+    if (after.state == nullptr) return std::move(after.migration);
+    return replace(state, *order, std::move(after), nullptr);
 }
 
 Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& options) {
     const StandardArithmetic standard;
     const Communicator& processes = state.mesh.processes;
-    check_same(processes, options);
-    const auto count = static_cast<std::uint64_t>(state.mesh.cells.size());
-    const auto mean =
-        static_cast<double>(processes.sum(count)) / static_cast<double>(processes.size());
-    if (static_cast<double>(processes.max(count)) <= options.most_over_mean * mean) {
-        return unmoved(state.mesh);
-    }
-    LocalFailure failure;
     std::optional<CanonicalOrder> order;
-    failure.attempt([&] { order.emplace(state.mesh); });
-    failure.agree(processes);
     std::unique_ptr<CellsAsRoots> roots;
-    const auto weigh = [&] { return cells_of_roots(state.mesh); };
-    const auto ranks =
-        even_parts_or_roots(state.mesh, std::ref(weigh), options, roots, &state.numbers, failure);
-    if (!ranks) return unmoved(state.mesh);
-    if (roots != nullptr) state.reserve_history();
-    const Phase phase(processes, "migrate");
-    Migration migration;
-    std::optional<AdaptiveMesh::State> after =
-        moved_state(state, order->cells_before(), *ranks, migration);
-    order->keep();
-    state.replace_by(*std::move(after), std::move(roots));
-    return migration;
+    MovedState after = processes.transaction([&]() -> MovedState {
+        check_same(processes, options);
+        const auto count = static_cast<std::uint64_t>(state.mesh.cells.size());
+        const auto mean =
+            static_cast<double>(processes.sum(count)) / static_cast<double>(processes.size());
+        if (static_cast<double>(processes.max(count)) <= options.most_over_mean * mean) {
+            return {nullptr, unmoved(state.mesh)};
+        }
+        order.emplace(state.mesh);
+        const auto weigh = [&] { return cells_of_roots(state.mesh); };
+        const auto ranks = even_parts_or_roots(state.mesh, weigh, options, roots, &state.numbers);
+        if (!ranks) return {nullptr, unmoved(state.mesh)};
+        const Phase phase(processes, "migrate");
+        state.forgotten.reserve(state.forgotten.size() + 1);
+        return moved_state(state, order->cells_before(), *ranks);
+    });
+    if (after.state == nullptr) return std::move(after.migration);
+    return replace(state, *order, std::move(after), std::move(roots));
 }
 
 Migration recall_history(AdaptiveMesh::State& state) {
     const StandardArithmetic standard;
     if (state.forgotten.empty()) return unmoved(state.mesh);
-    const Phase phase(state.mesh.processes, "recall history");
-    const History& before = state.forgotten.back();
-    LocalFailure failure;
+    const Communicator& processes = state.mesh.processes;
+    const Phase phase(processes, "recall history");
     std::optional<CanonicalOrder> order;
-    failure.attempt([&] { order.emplace(state.mesh); });
-    failure.agree(state.mesh.processes);
-    const std::vector<int> ranks = ranks_of_roots(state.mesh.processes, before.cell_ancestors,
-                                                  state.mesh.cell_ancestors.roots);
-    Migration migration;
-    std::optional<AdaptiveMesh::State> after =
-        moved_state(state, order->cells_before(), ranks, migration);
-    move_tagged_to_history(after->mesh, after->numbers.of_vertex, before);
-    std::optional<History> history;  // not a default object, which would allocate
-    failure.attempt([&] { history = joined(before, after->mesh); });
-    failure.agree(state.mesh.processes);
-    history->swap_with(after->mesh);
-    order->keep();
+    MovedState after = processes.transaction([&] {
+        const History& before = state.forgotten.back();
+        order.emplace(state.mesh);
+        const std::vector<int> ranks =
+            ranks_of_roots(processes, before.cell_ancestors, state.mesh.cell_ancestors.roots);
+        MovedState moved = moved_state(state, order->cells_before(), ranks);
+        DistributedMesh& mesh = moved.state->mesh;
+        move_tagged_to_history(mesh, moved.state->numbers.of_vertex, before);
+        joined(before, mesh).swap_with(mesh);
+        return moved;
+    });
     state.forgotten.pop_back();
-    state.replace_by(*std::move(after), nullptr);
-    return migration;
+    return replace(state, *order, std::move(after), nullptr);
 }
 
 }  // namespace octetra::distributed

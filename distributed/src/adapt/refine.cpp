@@ -1,6 +1,9 @@
 #include <octetra/distributed/refine.hpp>
 
+#include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include <octetra/core/standard_arithmetic.hpp>
@@ -14,32 +17,60 @@
 namespace octetra::distributed {
 namespace {
 
-/// Collective. Returns the number of cells of this process that were processed.
-std::size_t bisect_and_commit(DistributedMesh& mesh, PlannedLevel& plan,
-                              const RefineOptions& options, int level) {
-    bisect_level(plan, mesh, options, level);
+/// The state of a mesh that has only its history. The destructor returns the mesh.
+class BorrowedMesh {
+public:
+    /// Collective, within a transaction.
+    explicit BorrowedMesh(DistributedMesh& mesh) : mesh_(&mesh), state_(state_of(mesh)) {}
+    ~BorrowedMesh() { *mesh_ = std::move(state_->mesh); }
+    BorrowedMesh(const BorrowedMesh&) = delete;
+    BorrowedMesh& operator=(const BorrowedMesh&) = delete;
+    BorrowedMesh(BorrowedMesh&&) = delete;
+    BorrowedMesh& operator=(BorrowedMesh&&) = delete;
+
+    [[nodiscard]] const AdaptiveMesh::State& state() const { return *state_; }
+
+private:
+    DistributedMesh* mesh_;
+    std::unique_ptr<AdaptiveMesh::State> state_;
+};
+
+/// Collective. Performs a level, preceded by a migration if the options request it. Returns false
+/// on all processes if nothing is marked. On failure, only the order and the roots of the mesh may
+/// have changed.
+bool refine_level(DistributedMesh& mesh, const std::function<MarkedCells()>& mark,
+                  const RefineOptions& options, const Tuning& tuning, int level,
+                  std::uint64_t& accumulated_idle, SynchronisationCounts& total) {
+    const Communicator processes = mesh.processes;
+    std::uint64_t idle = accumulated_idle;
+    SynchronisationCounts counts;
+    std::optional<BorrowedMesh> borrowed;
+    MovedLevel moved;
+    PlannedLevel plan;
+    processes.transaction([&] {
+        plan = close_level(mesh, mark, options, tuning);
+        if (!plan.changes_anything()) return;
+        counts = plan.counts;
+        std::optional<UnevenLevel> uneven;
+        if (options.balance) {
+            uneven = uneven_level(mesh, plan, *options.balance, options, tuning, idle);
+        }
+        if (!uneven) return bisect_level(plan, mesh, options, level);
+        uneven->keep_mesh();
+        moved = moved_level(borrowed.emplace(mesh).state(), *uneven, options, tuning);
+        plan = std::move(moved.plan);
+        bisect_level(plan, moved.to.state->mesh, options, level);
+    });
+    if (!plan.changes_anything()) return false;
     const std::size_t touched = plan.tested + plan.level->cells_touched();
     plan.commit();
-    return touched;
-}
-
-/// Collective. Migrates roots, and bisects the level. On failure, only the order and the roots of
-/// the mesh may have changed.
-std::size_t move_and_bisect(DistributedMesh& mesh, UnevenLevel uneven, const RefineOptions& options,
-                            const Tuning& tuning, int level) {
-    uneven.keep_mesh();
-    std::optional<AdaptiveMesh::State> state = state_of(mesh);
-    try {
-        MovedLevel moved = moved_level(*state, uneven, options, tuning);
-        const std::size_t touched =
-            bisect_and_commit(moved.state->mesh, moved.plan, options, level);
-        moved.plan = {};
-        mesh = std::move(moved.state->mesh);
-        return touched;
-    } catch (...) {
-        mesh = std::move(state->mesh);
-        throw;
-    }
+    plan = {};
+    borrowed.reset();
+    if (moved.to.state != nullptr) mesh = std::move(moved.to.state->mesh);
+    accumulated_idle = idle;
+    total += counts;
+    note_cells(processes, level, mesh.cells.size(), touched);
+    return true;
 }
 
 }  // namespace
@@ -50,7 +81,7 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
     SynchronisationCounts total;
     if (options.balance) {
         const Phase phase(mesh.processes, "select");
-        check_same(mesh.processes, *options.balance);
+        mesh.processes.transaction([&] { check_same(mesh.processes, *options.balance); });
     }
     note_cells(mesh.processes, 0, mesh.cells.size(), 0);
     RefineOptions of_level = options;
@@ -59,17 +90,9 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
         const Phase phase(mesh.processes, "level", level);
         const auto mark = [&] { return mark_cells(mesh, selection, level > 1); };
         of_level.is_last = options.is_last && level == options.levels;
-        PlannedLevel plan = close_level(mesh, std::ref(mark), of_level, tuning);
-        if (!plan.changes_anything()) break;  // nor would any later level
-        const SynchronisationCounts counts = plan.counts;
-        std::optional<UnevenLevel> uneven;
-        if (options.balance)
-            uneven = uneven_level(mesh, plan, *options.balance, of_level, tuning, accumulated_idle);
-        const std::size_t touched =
-            uneven ? move_and_bisect(mesh, *std::move(uneven), of_level, tuning, level)
-                   : bisect_and_commit(mesh, plan, of_level, level);
-        total += counts;
-        note_cells(mesh.processes, level, mesh.cells.size(), touched);
+        if (!refine_level(mesh, std::ref(mark), of_level, tuning, level, accumulated_idle, total)) {
+            break;  // nor would any later level change anything
+        }
         const std::uint64_t cells = mesh.processes.sum(mesh.cells.size());
         if (options.on_level && mesh.processes.is_first()) options.on_level(level, cells);
     }

@@ -4,21 +4,14 @@
 
 #include <octetra/core/error.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 namespace {
 
 template <class Options>
 void check_all_same(const Communicator& processes, const Options& options) {
-    const Options on_first = processes.of_rank(0, options);
-    LocalFailure failure;
-    failure.attempt([&] {
-        if (options == on_first) return;
-        throw InputError(
-            fmt::format("rank {}: options of the step are not those of rank 0", processes.rank()));
-    });
-    failure.agree(processes);
+    if (options == processes.of_rank(0, options)) return;
+    throw InputError(
+        fmt::format("rank {}: options of the step are not those of rank 0", processes.rank()));
 }
 
 }  // namespace
@@ -29,13 +22,12 @@ void check_same(const Communicator& processes, const StepOptions& options) {
 
 void check_same(const Communicator& processes, const BalanceOptions& options) {
     // NaN must be rejected first, since it differs from itself.
-    processes.transaction([&] {
-        if (options.most_over_mean >= 1) return;
+    if (!(options.most_over_mean >= 1)) {
         throw InputError(fmt::format(
             "most_over_mean: the largest number of cells of a process over the mean, from 1; "
             "given is {}",
             options.most_over_mean));
-    });
+    }
     check_all_same(processes, options);
 }
 

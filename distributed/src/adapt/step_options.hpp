@@ -4,8 +4,8 @@
 
 namespace octetra::distributed {
 
-/// Collective. Throws InputError on all processes unless all have the same options: with different
-/// ones they would make meshes that do not fit each other, or deadlock.
+/// Collective, within a transaction. Throws InputError unless all processes have the same options:
+/// with different ones they would make meshes that do not fit each other, or deadlock.
 void check_same(const Communicator& processes, const StepOptions& options);
 void check_same(const Communicator& processes, const BalanceOptions& options);
 

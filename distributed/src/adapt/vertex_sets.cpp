@@ -16,7 +16,6 @@
 #include <octetra/distributed/exchange.hpp>
 
 #include "adapt/mesh_state.hpp"
-#include "comm/local_failure.hpp"
 #include "numbering/vertex_markers.hpp"
 
 namespace octetra::distributed {
@@ -26,13 +25,8 @@ using Flags = std::vector<std::uint8_t>;
 
 /// Collective. Returns the flags that `mark` sets on any sharer of the vertex.
 Flags flagged_anywhere(const AdaptiveMesh& mesh, const std::function<void(Flags&)>& mark) {
-    Flags flags;
-    LocalFailure failure;
-    failure.attempt([&] {
-        flags.assign(mesh.points().size(), 0);
-        mark(flags);
-    });
-    failure.agree(mesh.processes());
+    Flags flags(mesh.points().size(), 0);
+    mark(flags);
     combine_everywhere(mesh.processes(), mesh.vertex_sharing(), flags.size(), flags,
                        std::logical_or<>{});
     return flags;
@@ -46,6 +40,26 @@ void flag_vertices(std::span<const std::array<VertexIndex, N>> entities,
         if (markers[i] != marker) continue;
         for (const VertexIndex v : entities[i]) flags[v.value()] = 1;
     }
+}
+
+/// Collective. See AdaptiveMesh::vertices_of().
+Flags flags_of(const AdaptiveMesh& mesh, Marker marker, int dimension) {
+    if (dimension == 0) {
+        const std::vector<Marker> markers = mesh.vertex_markers();
+        Flags flags(mesh.points().size(), 0);
+        for (std::size_t v = 0; v < markers.size(); ++v) flags[v] = markers[v] == marker ? 1 : 0;
+        return flags;
+    }
+    return flagged_anywhere(mesh, [&](Flags& flags) {
+        switch (dimension) {
+            case 1: return flag_vertices(mesh.edges(), mesh.edge_markers(), marker, flags);
+            case 2: return flag_vertices(mesh.facets(), mesh.facet_markers(), marker, flags);
+            case 3: return flag_vertices(mesh.cells(), mesh.regions(), marker, flags);
+            default:
+                throw InputError(
+                    fmt::format("a dimension is one of 0, 1, 2 and 3, not {}", dimension));
+        }
+    });
 }
 
 /// Returns the groups with this name. Throws InputError if there are none.
@@ -66,77 +80,54 @@ std::vector<GroupName> groups_called(const AdaptiveMesh& mesh, std::string_view 
 }  // namespace
 
 std::vector<std::uint8_t> AdaptiveMesh::boundary_vertices() const {
-    return flagged_anywhere(*this, [&](Flags& flags) {
-        for (const auto& [cell, face] : boundary()) {
-            for (const std::uint8_t k : cell_faces[face]) {
-                flags[cells()[cell.value()][k].value()] = 1;
+    return processes().transaction([&] {
+        return flagged_anywhere(*this, [&](Flags& flags) {
+            for (const auto& [cell, face] : boundary()) {
+                for (const std::uint8_t k : cell_faces[face]) {
+                    flags[cells()[cell.value()][k].value()] = 1;
+                }
             }
-        }
+        });
     });
 }
 
 std::vector<std::uint8_t> AdaptiveMesh::vertices_of(Marker marker, int dimension) const {
-    processes().check_same("marker and dimension", fmt::format("{}, {}", marker, dimension));
-    if (dimension != 0) {
-        return flagged_anywhere(*this, [&](Flags& flags) {
-            switch (dimension) {
-                case 1: return flag_vertices(edges(), edge_markers(), marker, flags);
-                case 2: return flag_vertices(facets(), facet_markers(), marker, flags);
-                case 3: return flag_vertices(cells(), regions(), marker, flags);
-                default:
-                    throw InputError(
-                        fmt::format("a dimension is one of 0, 1, 2 and 3, not {}", dimension));
-            }
-        });
-    }
-    const std::vector<Marker> markers = vertex_markers();
-    Flags flags;
-    LocalFailure failure;
-    failure.attempt([&] {
-        flags.assign(points().size(), 0);
-        for (std::size_t v = 0; v < markers.size(); ++v) flags[v] = markers[v] == marker ? 1 : 0;
+    return processes().transaction([&] {
+        processes().check_same("marker and dimension", fmt::format("{}, {}", marker, dimension));
+        return flags_of(*this, marker, dimension);
     });
-    failure.agree(processes());
-    return flags;
 }
 
 std::vector<std::uint8_t> AdaptiveMesh::vertices_of(std::string_view group) const {
-    processes().check_same("group", std::string(group));
-    std::vector<GroupName> groups;
-    Flags flags;
-    LocalFailure failure;
-    failure.attempt([&] {
-        groups = groups_called(*this, group);
-        flags.assign(points().size(), 0);
+    return processes().transaction([&] {
+        processes().check_same("group", std::string(group));
+        Flags flags(points().size(), 0);
+        for (const GroupName& one : groups_called(*this, group)) {
+            const Flags of_one = flags_of(*this, one.tag, one.dimension);
+            for (std::size_t v = 0; v < flags.size(); ++v) flags[v] |= of_one[v];
+        }
+        return flags;
     });
-    failure.agree(processes());
-    for (const GroupName& one : groups) {
-        const Flags of_one = vertices_of(one.tag, one.dimension);
-        for (std::size_t v = 0; v < flags.size(); ++v) flags[v] |= of_one[v];
-    }
-    return flags;
 }
 
 std::vector<double> AdaptiveMesh::vertex_volumes() const {
     const StandardArithmetic standard;
-    std::vector<double> volumes;
-    LocalFailure failure;
-    failure.attempt([&] {
-        volumes.assign(points().size(), 0);
+    return processes().transaction([&] {
+        std::vector<double> volumes(points().size(), 0);
         for (const CellVertices& cell : cells()) {
             Corners corners;
             for (std::size_t k = 0; k < 4; ++k) corners[k] = points()[cell[k].value()];
             const double share = volume(corners) / 4;
             for (const VertexIndex v : cell) volumes[v.value()] += share;
         }
+        combine_everywhere(processes(), vertex_sharing(), volumes.size(), volumes, std::plus<>{});
+        return volumes;
     });
-    failure.agree(processes());
-    combine_everywhere(processes(), vertex_sharing(), volumes.size(), volumes, std::plus<>{});
-    return volumes;
 }
 
 std::vector<Marker> AdaptiveMesh::vertex_markers() const {
-    return distributed::vertex_markers(state_->mesh, state_->numbers);
+    return processes().transaction(
+        [&] { return distributed::vertex_markers(state_->mesh, state_->numbers); });
 }
 
 }  // namespace octetra::distributed

@@ -169,14 +169,15 @@ std::vector<int> parts_by_coordinates(const Communicator& processes, const Share
     const auto some = [&](std::size_t first, std::span<Point> places) {
         std::ranges::copy(std::span(centroids).subspan(first, places.size()), places.begin());
     };
-    auto parts = bisect_coordinates(processes,
-                                    {.count = roots.size(),
-                                     .points = some,
-                                     .number = [&](std::size_t i) { return roots[i].number; },
-                                     .weight = [&](std::size_t i) { return share.weights[i]; }},
-                                    processes.size(), failure);
     failure.agree(processes);
-    return parts;
+    return processes.transaction([&] {
+        return bisect_coordinates(processes,
+                                  {.count = roots.size(),
+                                   .points = some,
+                                   .number = [&](std::size_t i) { return roots[i].number; },
+                                   .weight = [&](std::size_t i) { return share.weights[i]; }},
+                                  processes.size());
+    });
 }
 
 /// Collective. Same, by a method that requires the whole input on the first process.

@@ -34,8 +34,9 @@ VertexIndex first_changed(const Communicator& processes, const CanonicalNumbers&
 /// Returns the messages to each rank, for the numbers of its block. A removed vertex is reported by
 /// its owner only.
 std::vector<EncodedNumbers> requests_of(const CanonicalNumbers& numbers,
-                                  const Sharing<VertexIndex>& sharing, const KeptVertices& kept,
-                                  VertexIndex first, int process_count) {
+                                        const Sharing<VertexIndex>& sharing,
+                                        const KeptVertices& kept, VertexIndex first,
+                                        int process_count) {
     const std::uint64_t block =
         numbers.vertex_count / static_cast<std::uint64_t>(process_count) + 1;
     std::vector<EncodedNumbers> requests(static_cast<std::size_t>(process_count));
@@ -60,9 +61,9 @@ std::vector<std::uint64_t> removed_in_block(const std::vector<EncodedNumbers>& r
 
 /// Returns the number of removed vertices before each requested vertex, including those before the
 /// block.
-std::vector<std::vector<std::uint64_t>> answers_to(const std::vector<EncodedNumbers>& received_requests,
-                                                   const std::vector<std::uint64_t>& removed,
-                                                   std::uint64_t removed_before) {
+std::vector<std::vector<std::uint64_t>> answers_to(
+    const std::vector<EncodedNumbers>& received_requests, const std::vector<std::uint64_t>& removed,
+    std::uint64_t removed_before) {
     std::vector<std::vector<std::uint64_t>> answers(received_requests.size());
     for (std::size_t r = 0; r < received_requests.size(); ++r) {
         auto next = removed.begin();
@@ -76,13 +77,12 @@ std::vector<std::vector<std::uint64_t>> answers_to(const std::vector<EncodedNumb
     return answers;
 }
 
-/// Returns the requested numbers after subtraction of the answers. A process that has failed sends
-/// no answers.
+/// Returns the requested numbers after subtraction of the answers.
 std::vector<GlobalVertex> renumbered_after_removal(
-    const std::vector<EncodedNumbers>& requests, const std::vector<std::vector<std::uint64_t>>& answers) {
+    const std::vector<EncodedNumbers>& requests,
+    const std::vector<std::vector<std::uint64_t>>& answers) {
     std::vector<GlobalVertex> after;
     for (std::size_t r = 0; r < requests.size(); ++r) {
-        if (answers[r].empty()) continue;
         auto less = answers[r].begin();
         for (const std::uint64_t request : requests[r]) {
             if (!is_removal(request)) after.push_back(GlobalVertex{(request >> 1U) - *less++});
@@ -95,39 +95,25 @@ std::vector<GlobalVertex> renumbered_after_removal(
 
 CoarserNumbers coarser_numbers(const Communicator& processes, const CanonicalNumbers& numbers,
                                const Sharing<VertexIndex>& sharing, const KeptVertices& kept,
-                               const CoarserPart& part, LocalFailure& failure) {
+                               const CoarserPart& part) {
     CoarserNumbers after{.first = first_changed(processes, numbers, part.first_removed)};
     if (processes.size() == 1) {
-        failure.attempt([&] {
-            const std::size_t count = part.vertices_before.size();
-            for (std::size_t v = after.first.value(); v < count; ++v) {
-                after.from_first.push_back(GlobalVertex{v});
-            }
-            after.vertex_count = count;
-        });
+        const std::size_t count = part.vertices_before.size();
+        for (std::size_t v = after.first.value(); v < count; ++v) {
+            after.from_first.push_back(GlobalVertex{v});
+        }
+        after.vertex_count = count;
         return after;
     }
-    const auto somewhere_failed = [&] {
-        return failure.max_unless_failed(processes, 0) == LocalFailure::somewhere;
-    };
-    std::vector<EncodedNumbers> requests;
-    failure.attempt(
-        [&] { requests = requests_of(numbers, sharing, kept, after.first, processes.size()); });
-    if (somewhere_failed()) return after;
-    std::vector<EncodedNumbers> received_requests;
-    std::vector<std::uint64_t> removed;
-    failure.attempt([&] {
-        received_requests = processes.all_to_all(requests);
-        removed = removed_in_block(received_requests);
-    });
+    const auto requests = requests_of(numbers, sharing, kept, after.first, processes.size());
+    const auto received_requests = processes.all_to_all(requests);
+    const std::vector<std::uint64_t> removed = removed_in_block(received_requests);
     const std::uint64_t removed_before = processes.sum_before(removed.size());
     after.vertex_count = numbers.vertex_count - processes.sum(removed.size());
-    std::vector<std::vector<std::uint64_t>> answers;
-    failure.attempt([&] { answers = answers_to(received_requests, removed, removed_before); });
-    if (somewhere_failed()) return after;
-    failure.attempt([&] {
-        after.from_first = renumbered_after_removal(requests, processes.all_to_all(answers));
-    });
+    const auto answers =
+        processes.all_to_all(answers_to(received_requests, removed, removed_before));
+    processes.agree_on_success();  // a process without memory has sent no answers
+    after.from_first = renumbered_after_removal(requests, answers);
     return after;
 }
 

@@ -8,7 +8,6 @@
 
 #include "coarsen/coarser_part.hpp"
 #include "coarsen/kept_vertices.hpp"
-#include "comm/local_failure.hpp"
 #include "numbering/canonical_numbers.hpp"
 
 namespace octetra::distributed {
@@ -26,12 +25,11 @@ struct CoarserNumbers {
 /// the numbers of their ends; so the order of the remaining vertices does not change, and each
 /// number decreases by the number of removed vertices before it, on any process. Each new number is
 /// requested from the rank whose block of numbers has the old one; owners report removed vertices
-/// to it. If a process has failed or fails, the result must not be used on any process.
+/// to it.
 [[nodiscard]] CoarserNumbers coarser_numbers(const Communicator& processes,
                                              const CanonicalNumbers& numbers,
                                              const Sharing<VertexIndex>& sharing,
-                                             const KeptVertices& kept, const CoarserPart& part,
-                                             LocalFailure& failure);
+                                             const KeptVertices& kept, const CoarserPart& part);
 
 void commit_numbers(const CoarserNumbers& after, const CoarserPart& part,
                     CanonicalNumbers& numbers) noexcept;

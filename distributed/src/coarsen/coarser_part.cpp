@@ -11,7 +11,6 @@
 #include "coarsen/coarser_list.hpp"
 #include "coarsen/family_division.hpp"
 #include "coarsen/level_removals.hpp"
-#include "comm/local_failure.hpp"
 #include "history/vertex_levels.hpp"
 
 namespace octetra::distributed {
@@ -126,17 +125,12 @@ void coarsen_lists(const DistributedMesh& mesh, const CanonicalOrder& order,
 
 void drop_empty_levels(const DistributedMesh& mesh, CoarserPart& part) {
     const Communicator& processes = mesh.processes;
-    LocalFailure failure;
     std::vector<std::uint64_t> has_any;
     auto& begins = part.level_begin;
-    failure.attempt([&] {
-        for (std::size_t t = 0; t < begins.size(); ++t) {
-            const VertexIndex end =
-                t + 1 < begins.size() ? begins[t + 1] : part.vertex_after.back();
-            has_any.push_back(begins[t] < end ? 1 : 0);
-        }
-    });
-    failure.agree(processes);
+    for (std::size_t t = 0; t < begins.size(); ++t) {
+        const VertexIndex end = t + 1 < begins.size() ? begins[t + 1] : part.vertex_after.back();
+        has_any.push_back(begins[t] < end ? 1 : 0);
+    }
     processes.max(has_any);
     const bool any_failed =
         processes.max(std::ranges::any_of(part.failures, &RoundingFailure::found) ? 1 : 0) != 0;

@@ -1,7 +1,6 @@
 #include "coarsen/kept_vertices.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include <octetra/core/edge_order.hpp>
@@ -269,34 +268,18 @@ std::uint64_t count_of(const Outboxes& outboxes) {
 }  // namespace
 
 KeptVertices find_kept_vertices(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing,
-                                const MarkedCells& marked, Adjacency* adjacency,
-                                LocalFailure& failure) {
+                                const MarkedCells& marked, Adjacency* adjacency) {
     const Communicator& processes = mesh.processes;
-    std::unique_ptr<KeptVertexSearch> search;
-    std::unique_ptr<KeptVertexExchange> kept_exchange;
-    Outboxes outboxes;
-    failure.attempt([&] {
-        search = std::make_unique<KeptVertexSearch>(mesh, marked, adjacency);
-        kept_exchange = std::make_unique<KeptVertexExchange>(sharing);
-        outboxes = kept_exchange->first(*search);
-    });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
-    failure.attempt([&] {
-        kept_exchange->apply_initial(
-            processes.exchange_with<std::uint32_t>(kept_exchange->ranks(), outboxes), *search);
-    });
+    KeptVertexSearch search(mesh, marked, adjacency);
+    KeptVertexExchange kept_exchange(sharing);
+    kept_exchange.apply_initial(
+        processes.exchange_with(kept_exchange.ranks(), kept_exchange.first(search)), search);
     while (true) {
-        failure.attempt([&] {
-            search->close();
-            outboxes = kept_exchange->pending(*search);
-        });
-        const std::uint64_t most = failure.max_unless_failed(processes, count_of(outboxes));
-        if (most == LocalFailure::somewhere) return {};
-        if (most == 0) return std::move(*search).result();
-        failure.attempt([&] {
-            kept_exchange->apply(
-                processes.exchange_with<std::uint32_t>(kept_exchange->ranks(), outboxes), *search);
-        });
+        search.close();
+        const Outboxes outboxes = kept_exchange.pending(search);
+        if (processes.max(count_of(outboxes)) == 0) return std::move(search).result();
+        kept_exchange.apply(processes.exchange_after_agreement(kept_exchange.ranks(), outboxes),
+                            search);
     }
 }
 

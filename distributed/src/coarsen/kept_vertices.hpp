@@ -5,7 +5,6 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/sharing.hpp>
 
-#include "comm/local_failure.hpp"
 #include "level/incremental/adjacency.hpp"
 #include "mark/marked_cells.hpp"
 
@@ -27,11 +26,8 @@ using KeptVertices = IndexVector<VertexIndex, std::uint8_t>;
 /// The result does not depend on the order of cells or on the partition. With the mesh's Adjacency,
 /// which may be null, a process tests the marked cells and those around them, otherwise its whole
 /// part. The Adjacency is unchanged on return.
-///
-/// If a process has failed or fails, the result must not be used on any process.
 [[nodiscard]] KeptVertices find_kept_vertices(const DistributedMesh& mesh,
                                               const Sharing<VertexIndex>& sharing,
-                                              const MarkedCells& marked, Adjacency* adjacency,
-                                              LocalFailure& failure);
+                                              const MarkedCells& marked, Adjacency* adjacency);
 
 }  // namespace octetra::distributed

@@ -10,7 +10,6 @@
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/profile.hpp>
 
-#include "comm/local_failure.hpp"
 #include "level/full_sweep/full_sweep_level.hpp"
 #include "level/incremental/incremental_level.hpp"
 #include "level/incremental/suits_incremental_level.hpp"
@@ -26,31 +25,25 @@ void check_countable(std::size_t count, const char* what) {
                                  VertexIndex::limit, what));
 }
 
-/// Collective. Records a failure on all processes if the whole mesh would have more cells than
-/// allowed.
+/// Collective. Throws if the whole mesh would have more cells than allowed.
 void check_allowed(const DistributedMesh& mesh, std::size_t count, const RefineOptions& options,
-                   int level, LocalFailure& failure) {
+                   int level) {
     if (options.max_cells == std::numeric_limits<std::uint64_t>::max()) return;
     const std::uint64_t cells = mesh.processes.sum(count);
     if (cells <= options.max_cells) return;
-    failure.attempt([&] {
-        throw InputError(fmt::format(
-            "level {} would make {} cells, more than the {} allowed: mark fewer cells or "
-            "levels, or allow more",
-            level, cells, options.max_cells));
-    });
+    throw InputError(
+        fmt::format("level {} would make {} cells, more than the {} allowed: mark fewer cells or "
+                    "levels, or allow more",
+                    level, cells, options.max_cells));
 }
 
-/// Collective. Closes the marked edges; throws on all processes if one has failed.
-SynchronisationCounts close(Level* level, const DistributedMesh& mesh, const RefineOptions& options,
-                            LocalFailure& failure) {
+/// Collective. Closes the marked edges.
+SynchronisationCounts close(Closure& closure, const DistributedMesh& mesh,
+                            const RefineOptions& options) {
     const Phase phase(mesh.processes, "synchronise");
-    Closure* const closure = level == nullptr ? nullptr : &level->closure();
-    const auto counts = options.synchronisation == Synchronisation::neighbour
-                            ? synchronise_by_neighbours(closure, mesh, failure)
-                            : synchronise_by_gateway(closure, mesh, failure);
-    if (!counts) failure.agree(mesh.processes);
-    return counts.value();
+    return options.synchronisation == Synchronisation::neighbour
+               ? synchronise_by_neighbours(closure, mesh)
+               : synchronise_by_gateway(closure, mesh);
 }
 
 template <class I>
@@ -111,51 +104,34 @@ void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuni
 PlannedLevel close_level(DistributedMesh& mesh, const std::function<MarkedCells()>& mark_cells,
                          const RefineOptions& options, const Tuning& tuning) {
     const Communicator& processes = mesh.processes;
+    MarkedCells marked = in_phase(processes, "select", mark_cells);
     PlannedLevel plan;
-    LocalFailure failure;
-    MarkedCells marked;
-    failure.attempt([&] {
-        const Phase phase(processes, "select");
-        marked = mark_cells();
-        plan.tested = marked.tested;
-    });
-    const std::uint64_t most = failure.max_unless_failed(processes, marked.count);
-    if (most == LocalFailure::somewhere) failure.agree(processes);
-    if (most == 0) return plan;
-
-    failure.attempt([&] { begin_level(mesh, options, tuning, std::move(marked), plan); });
-    plan.counts = close(plan.level.get(), mesh, options, failure);
+    plan.tested = marked.tested;
+    if (processes.max(marked.count) == 0) return plan;
+    begin_level(mesh, options, tuning, std::move(marked), plan);
+    plan.counts = close(plan.level->closure(), mesh, options);
     return plan;
 }
 
 void bisect_level(PlannedLevel& plan, const DistributedMesh& mesh, const RefineOptions& options,
                   int level) {
     Level& planned = *plan.level;
-    LocalFailure failure;
-    failure.attempt([&] {
+    {
         const Phase phase(mesh.processes, "bisect edges");
         check_countable(mesh.points.size() + planned.closure().marked_count(), "vertices");
         planned.bisect_edges();
-    });
+    }
     RoundingFailure rounding;
     {
         const Phase phase(mesh.processes, "bisect tetrahedra");
-        std::size_t cell_count = 0;
-        failure.attempt([&] {
-            cell_count = planned.cell_count_afterwards();
-            check_countable(cell_count, "cells");
-        });
-        check_allowed(mesh, cell_count, options, level, failure);
-        failure.attempt([&] {
-            rounding = planned.bisect_cells(cell_count);
-            if (!rounding.found()) planned.bisect_tagged();
-        });
+        const std::size_t cell_count = planned.cell_count_afterwards();
+        check_countable(cell_count, "cells");
+        check_allowed(mesh, cell_count, options, level);
+        rounding = planned.bisect_cells(cell_count);
+        if (!rounding.found()) planned.bisect_tagged();
     }
     const Phase phase(mesh.processes, "interfaces");
-    failure.attempt([&] {
-        if (!rounding.found()) planned.bisect_interfaces();
-    });
-    failure.agree(mesh.processes);
+    if (!rounding.found()) planned.bisect_interfaces();
     rounding.agree(mesh, level);
 }
 
@@ -170,9 +146,7 @@ PlannedLevel plan_closed_level(DistributedMesh& mesh,
                                const std::function<MarkedCells()>& mark_cells, const Tuning& tuning,
                                int level, const RefineOptions& options) {
     PlannedLevel plan;
-    LocalFailure failure;
-    failure.attempt([&] { begin_level(mesh, options, tuning, mark_cells(), plan); });
-    failure.agree(mesh.processes);
+    begin_level(mesh, options, tuning, mark_cells(), plan);
     bisect_level(plan, mesh, options, level);
     return plan;
 }

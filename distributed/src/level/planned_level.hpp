@@ -48,8 +48,7 @@ void bisect_level(PlannedLevel& plan, const DistributedMesh& mesh, const RefineO
 [[nodiscard]] MarkedCells renumbered(MarkedCells marked, const std::vector<CellIndex>& before);
 
 /// Collective. Plans a level for the cells that `mark_cells` marks on this process. `level`,
-/// counted from 1, is for messages. Throws as refine() does; a failure on one process, including
-/// that of an allocation, is thrown on all and leaves the mesh unchanged.
+/// counted from 1, is for messages. Throws as refine() does, and leaves the mesh unchanged then.
 [[nodiscard]] PlannedLevel plan_level(DistributedMesh& mesh,
                                       const std::function<MarkedCells()>& mark_cells,
                                       const RefineOptions& options, const Tuning& tuning,

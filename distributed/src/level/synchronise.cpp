@@ -79,76 +79,53 @@ std::vector<BorderSelection> addressed(const Outboxes& outboxes, const Distribut
 
 }  // namespace
 
-std::optional<SynchronisationCounts> synchronise_by_neighbours(Closure* closure,
-                                                               const DistributedMesh& mesh,
-                                                               LocalFailure& failure) {
+SynchronisationCounts synchronise_by_neighbours(Closure& closure, const DistributedMesh& mesh) {
     const Communicator& processes = mesh.processes;
-    std::vector<int> neighbours;
-    failure.attempt([&] { neighbours = neighbours_of(mesh); });
+    const std::vector<int> neighbours = neighbours_of(mesh);
     SynchronisationCounts counts;
     while (true) {
-        Outboxes outboxes;
-        failure.attempt([&] {
-            close_locally(*closure, mesh);
-            outboxes = closure->take_outboxes();
-        });
-        const std::uint64_t most = failure.max_unless_failed(processes, count(outboxes));
-        if (most == LocalFailure::somewhere) return {};
-        if (most == 0) return counts;
+        close_locally(closure, mesh);
+        const Outboxes outboxes = closure.take_outboxes();
+        if (processes.max(count(outboxes)) == 0) return counts;
         note_round(processes);
         ++counts.rounds;
         counts.messages += neighbours.size();
         counts.edges += count(outboxes);
         counts.bytes += count(outboxes) * sizeof outboxes[0][0];
-        failure.attempt([&] {
-            const auto inboxes = processes.exchange_with(neighbours, outboxes);
-            for (std::size_t i = 0; i < inboxes.size(); ++i) {
-                for (const std::uint32_t position : inboxes[i]) closure->mark_from(i, position);
-            }
-        });
+        const auto inboxes = processes.exchange_after_agreement(neighbours, outboxes);
+        for (std::size_t i = 0; i < inboxes.size(); ++i) {
+            for (const std::uint32_t position : inboxes[i]) closure.mark_from(i, position);
+        }
     }
 }
 
-std::optional<SynchronisationCounts> synchronise_by_gateway(Closure* closure,
-                                                            const DistributedMesh& mesh,
-                                                            LocalFailure& failure) {
+SynchronisationCounts synchronise_by_gateway(Closure& closure, const DistributedMesh& mesh) {
     const Communicator& processes = mesh.processes;
-    std::vector<int> neighbours;
-    failure.attempt([&] { neighbours = neighbours_of(mesh); });
+    const std::vector<int> neighbours = neighbours_of(mesh);
     Gateway gateway;
     SynchronisationCounts counts;
     while (true) {
-        std::vector<BorderSelection> selections;
-        failure.attempt([&] {
-            close_locally(*closure, mesh);
-            selections = addressed(closure->take_outboxes(), mesh);
-        });
-        const std::uint64_t most = failure.max_unless_failed(processes, selections.size());
-        if (most == LocalFailure::somewhere) return {};
-        if (most == 0) return counts;
+        close_locally(closure, mesh);
+        const std::vector<BorderSelection> selections = addressed(closure.take_outboxes(), mesh);
+        if (processes.max(selections.size()) == 0) return counts;
         note_round(processes);
         ++counts.rounds;
+        const auto from_each = processes.gather(selections);
         std::vector<std::vector<BorderSelection>> to_each;
         std::uint64_t edges = selections.size();
-        failure.attempt([&] {
-            const auto from_each = processes.gather(selections);
-            if (!processes.is_first()) return;
+        if (processes.is_first()) {
             // Marks from the gateway to itself are not messages.
             to_each = gateway.route(from_each);
             edges = count(to_each) - to_each.front().size();
-        });
-        if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
+        }
         counts.messages +=
             processes.is_first() ? static_cast<std::uint64_t>(processes.size()) - 1 : 1;
         counts.edges += edges;
         counts.bytes += edges * sizeof(BorderSelection);
-        failure.attempt([&] {
-            for (const BorderSelection& s : processes.scatter(to_each)) {
-                const auto sender = std::ranges::lower_bound(neighbours, s.from);
-                closure->mark_from(static_cast<std::size_t>(sender - neighbours.begin()),
-                                   s.position);
-            }
-        });
+        for (const BorderSelection& s : processes.scatter(to_each)) {
+            const auto sender = std::ranges::lower_bound(neighbours, s.from);
+            closure.mark_from(static_cast<std::size_t>(sender - neighbours.begin()), s.position);
+        }
     }
 }
 

@@ -45,19 +45,13 @@ std::vector<int> matched(std::vector<ShareOfPart> shares, std::size_t process_co
     return rank_of_part;
 }
 
-/// Collective. Returns the load of each process after the move. Empty on all processes if one has
-/// failed or fails.
+/// Collective. Returns the load of each process after the move.
 std::vector<std::uint64_t> loads_after(const Communicator& processes, std::span<const int> ranks,
-                                       std::span<const std::uint64_t> weights,
-                                       LocalFailure& failure) {
-    std::vector<std::uint64_t> loads;
-    failure.attempt([&] {
-        loads.assign(static_cast<std::size_t>(processes.size()), 0);
-        for (std::size_t r = 0; r < ranks.size(); ++r) {
-            loads[static_cast<std::size_t>(ranks[r])] += weights[r];
-        }
-    });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
+                                       std::span<const std::uint64_t> weights) {
+    std::vector<std::uint64_t> loads(static_cast<std::size_t>(processes.size()), 0);
+    for (std::size_t r = 0; r < ranks.size(); ++r) {
+        loads[static_cast<std::size_t>(ranks[r])] += weights[r];
+    }
     processes.sum(std::span(loads));
     return loads;
 }
@@ -65,30 +59,23 @@ std::vector<std::uint64_t> loads_after(const Communicator& processes, std::span<
 }  // namespace
 
 std::vector<int> ranks_of_parts(const Communicator& processes, std::span<const int> parts,
-                                std::span<const std::uint64_t> weights, LocalFailure& failure) {
+                                std::span<const std::uint64_t> weights) {
+    std::vector<std::uint64_t> sums(static_cast<std::size_t>(processes.size()), 0);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        sums[static_cast<std::size_t>(parts[i])] += weights[i];
+    }
     std::vector<ShareOfPart> shares;
+    for (std::size_t part = 0; part < sums.size(); ++part) {
+        if (sums[part] == 0) continue;
+        shares.push_back({sums[part], static_cast<int>(part), processes.rank()});
+    }
+    std::vector<ShareOfPart> all;
+    for (const auto& of_one : processes.gather(shares)) {
+        all.insert(all.end(), of_one.begin(), of_one.end());
+    }
     std::vector<int> rank_of_part;
-    failure.attempt([&] {
-        rank_of_part.resize(static_cast<std::size_t>(processes.size()));
-        std::vector<std::uint64_t> sums(static_cast<std::size_t>(processes.size()), 0);
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            sums[static_cast<std::size_t>(parts[i])] += weights[i];
-        }
-        for (std::size_t part = 0; part < sums.size(); ++part) {
-            if (sums[part] == 0) continue;
-            shares.push_back({sums[part], static_cast<int>(part), processes.rank()});
-        }
-    });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
-    failure.attempt([&] {
-        const auto gathered = processes.gather(shares);
-        if (!processes.is_first()) return;
-        std::vector<ShareOfPart> all;
-        for (const auto& of_one : gathered) all.insert(all.end(), of_one.begin(), of_one.end());
-        rank_of_part = matched(std::move(all), gathered.size());
-    });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
-    processes.broadcast(rank_of_part);  // the memory is already allocated
+    if (processes.is_first()) rank_of_part = matched(std::move(all), sums.size());
+    processes.broadcast(rank_of_part);
     return rank_of_part;
 }
 
@@ -100,13 +87,12 @@ std::vector<std::uint64_t> cells_of_roots(const DistributedMesh& mesh) {
 }
 
 std::optional<EvenParts> even_parts(const DistributedMesh& mesh,
-                                    std::span<const std::uint64_t> weights, double most_over_mean,
-                                    LocalFailure& failure) {
+                                    std::span<const std::uint64_t> weights, double most_over_mean) {
     const Communicator& processes = mesh.processes;
     const Phase phase(processes, "find even parts");
     std::vector<WeighedPoint> centroids;
     std::uint64_t weight_here = 0;
-    failure.attempt([&] {
+    {
         const DistributedMesh input = input_of(mesh);
         const AncestorMap& roots = mesh.cell_ancestors;
         for (CellIndex c{0}; c < input.cells.end_index(); ++c) {
@@ -116,18 +102,12 @@ std::optional<EvenParts> even_parts(const DistributedMesh& mesh,
             weight_here += weights[r];
             centroids.push_back({place_of(corners), roots.roots[r], weights[r]});
         }
-    });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return std::nullopt;
-    std::vector<int> ranks = bisect_coordinates(processes, centroids, processes.size(), failure);
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return std::nullopt;
-    const auto rank_of_part = ranks_of_parts(processes, ranks, weights, failure);
-    if (rank_of_part.empty()) return std::nullopt;
-    for (int& rank : ranks) rank = rank_of_part[static_cast<std::size_t>(rank)];
-    auto loads = loads_after(processes, ranks, weights, failure);
-    if (loads.empty()) return std::nullopt;
-    if (!balance_heavy_roots(processes, weights, ranks, loads, most_over_mean, failure)) {
-        return std::nullopt;
     }
+    std::vector<int> ranks = bisect_coordinates(processes, centroids, processes.size());
+    const std::vector<int> rank_of_part = ranks_of_parts(processes, ranks, weights);
+    for (int& rank : ranks) rank = rank_of_part[static_cast<std::size_t>(rank)];
+    std::vector<std::uint64_t> loads = loads_after(processes, ranks, weights);
+    balance_heavy_roots(processes, weights, ranks, loads, most_over_mean);
     const std::uint64_t most = *std::ranges::max_element(loads);
     if (most >= processes.max(weight_here)) return std::nullopt;
     return EvenParts{std::move(ranks), most};

@@ -7,42 +7,32 @@
 
 #include <octetra/distributed/migration.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 
 using MessageBytes = std::vector<std::byte>;
 
 /// Collective. Sends pack(message) to each partner, including this process, and passes the received
-/// messages, by partner, to take(). Both functions may throw.
+/// messages, by partner, to take().
 void exchange_entities(const Communicator& processes, const std::vector<int>& partners,
-                       const Migration::Entities& entities, LocalFailure& failure, auto&& pack,
-                       auto&& take) {
+                       const Migration::Entities& entities, auto&& pack, auto&& take) {
     std::vector<int> others;
     std::vector<MessageBytes> outboxes;
     MessageBytes own;
-    failure.attempt([&] {
-        for (std::size_t p = 0; p < partners.size(); ++p) {
-            MessageBytes bytes = pack(entities.messages[p].sent);
-            if (partners[p] == processes.rank()) {
-                own = std::move(bytes);
-            } else {
-                others.push_back(partners[p]);
-                outboxes.push_back(std::move(bytes));
-            }
+    for (std::size_t p = 0; p < partners.size(); ++p) {
+        MessageBytes bytes = pack(entities.messages[p].sent);
+        if (partners[p] == processes.rank()) {
+            own = std::move(bytes);
+        } else {
+            others.push_back(partners[p]);
+            outboxes.push_back(std::move(bytes));
         }
-    });
-    failure.agree(processes);
-    std::vector<MessageBytes> inboxes;
-    failure.attempt([&] { inboxes = processes.exchange_with(others, outboxes); });
-    failure.agree(processes);  // a process without memory has sent nothing
-    failure.attempt([&] {
-        outboxes.clear();
-        const auto index = std::ranges::lower_bound(others, processes.rank()) - others.begin();
-        inboxes.insert(inboxes.begin() + index, std::move(own));
-        take(inboxes);
-    });
-    failure.agree(processes);
+    }
+    std::vector<MessageBytes> inboxes = processes.exchange_with(others, outboxes);
+    processes.agree_on_success();  // a process without memory has sent nothing
+    outboxes.clear();
+    const auto index = std::ranges::lower_bound(others, processes.rank()) - others.begin();
+    inboxes.insert(inboxes.begin() + index, std::move(own));
+    take(inboxes);
 }
 
 }  // namespace octetra::distributed

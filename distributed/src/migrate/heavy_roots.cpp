@@ -98,43 +98,34 @@ void balance_loads(std::vector<std::uint64_t>& loads, std::span<AssignedRoot> ro
     }
 }
 
-bool balance_heavy_roots(const Communicator& processes, std::span<const std::uint64_t> weights,
+void balance_heavy_roots(const Communicator& processes, std::span<const std::uint64_t> weights,
                          std::span<int> ranks, std::vector<std::uint64_t>& loads,
-                         double most_over_mean, LocalFailure& failure) {
+                         double most_over_mean) {
     const std::uint64_t sum = std::reduce(loads.begin(), loads.end());
     const std::uint64_t mean = sum / loads.size();
     const auto goal = static_cast<std::uint64_t>(most_over_mean * static_cast<double>(mean));
-    if (*std::ranges::max_element(loads) <= goal) return true;
+    if (*std::ranges::max_element(loads) <= goal) return;
 
     const std::uint64_t heavy =
         std::max({sum / max_heavy_roots, mean / mean_divisor, std::uint64_t{1}});
     std::vector<AssignedRoot> here;
     std::vector<std::size_t> which;
-    std::vector<int> assigned;
-    failure.attempt([&] {
-        assigned.resize(
-            max_heavy_roots);  // upper bound, so every process has memory for the broadcast
-        for (std::size_t r = 0; r < weights.size(); ++r) {
-            if (weights[r] <= heavy) continue;
-            here.push_back({weights[r], ranks[r]});
-            which.push_back(r);
-        }
-    });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return false;
+    for (std::size_t r = 0; r < weights.size(); ++r) {
+        if (weights[r] <= heavy) continue;
+        here.push_back({weights[r], ranks[r]});
+        which.push_back(r);
+    }
     const std::uint64_t before = processes.sum_before(here.size());
-    failure.attempt([&] {
-        const auto gathered = processes.gather(here);
-        if (!processes.is_first()) return;
-        std::vector<AssignedRoot> all;
-        for (const auto& of_one : gathered) all.insert(all.end(), of_one.begin(), of_one.end());
-        balance_loads(loads, all, goal);
-        std::ranges::transform(all, assigned.begin(), &AssignedRoot::rank);
-    });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return false;
+    std::vector<AssignedRoot> all;
+    for (const auto& of_one : processes.gather(here)) {
+        all.insert(all.end(), of_one.begin(), of_one.end());
+    }
+    if (processes.is_first()) balance_loads(loads, all, goal);
+    std::vector<int> assigned(all.size());
+    std::ranges::transform(all, assigned.begin(), &AssignedRoot::rank);
     processes.broadcast(assigned);
     processes.broadcast(loads);
     for (std::size_t k = 0; k < which.size(); ++k) ranks[which[k]] = assigned[before + k];
-    return true;
 }
 
 }  // namespace octetra::distributed

@@ -6,8 +6,6 @@
 
 #include <octetra/distributed/communicator.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 
 /// A root and the process that it is assigned to.
@@ -24,12 +22,10 @@ void balance_loads(std::vector<std::uint64_t>& loads, std::span<AssignedRoot> ro
                    std::uint64_t goal);
 
 /// Collective. Applies balance_loads() to the heavy roots of all processes, at most a few thousand.
-/// Bisection separates roots by position, so heavy ones may cause an imbalance in each cut. Returns
-/// false on all processes if one has failed or fails; otherwise `loads` are the loads after the
-/// moves.
-[[nodiscard]] bool balance_heavy_roots(const Communicator& processes,
-                                       std::span<const std::uint64_t> weights, std::span<int> ranks,
-                                       std::vector<std::uint64_t>& loads, double most_over_mean,
-                                       LocalFailure& failure);
+/// Bisection separates roots by position, so heavy ones may cause an imbalance in each cut. `loads`
+/// become the loads after the moves.
+void balance_heavy_roots(const Communicator& processes, std::span<const std::uint64_t> weights,
+                         std::span<int> ranks, std::vector<std::uint64_t>& loads,
+                         double most_over_mean);
 
 }  // namespace octetra::distributed

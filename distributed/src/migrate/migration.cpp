@@ -52,27 +52,26 @@ void sum_up(std::vector<std::uint64_t>& lengths) {
 void Migration::check_values(const Entities& entities, std::size_t count,
                              const detail::ValueKind& kind) const {
     if (!has_counts_) return;
-    LocalFailure failure;
-    failure.attempt([&] { check(processes_, count, entities.count_before * kind.components); });
-    agree_on_kind(processes_, failure, kind);
+    processes_.transaction([&] {
+        check(processes_, count, entities.count_before * kind.components);
+        LocalFailure none;
+        agree_on_kind(processes_, none, kind);
+    });
 }
 
 void Migration::check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
                             std::size_t count, const detail::ValueKind& kind) const {
     if (!has_counts_) return;
-    LocalFailure failure;
-    failure.attempt([&] { check(processes_, begin, count, entities.count_before); });
-    agree_on_kind(processes_, failure, kind);
+    processes_.transaction([&] {
+        check(processes_, begin, count, entities.count_before);
+        LocalFailure none;
+        agree_on_kind(processes_, none, kind);
+    });
 }
 
 void Migration::move_values(const Entities& entities, std::span<const std::byte> values,
                             const detail::ValueKind& kind, const Allocate& allocate) const {
     const std::size_t size = kind.entry_size();
-    LocalFailure failure;
-    failure.attempt([&] {
-        check(processes_, values.size() / kind.size, entities.count_before * kind.components);
-    });
-    agree_on_kind(processes_, failure, kind);
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         MessageBytes message(sent.size() * size);
         for (std::size_t k = 0; k < sent.size(); ++k) {
@@ -92,7 +91,12 @@ void Migration::move_values(const Entities& entities, std::span<const std::byte>
             }
         }
     };
-    exchange_entities(processes_, partners_, entities, failure, pack, take);
+    processes_.transaction([&] {
+        check(processes_, values.size() / kind.size, entities.count_before * kind.components);
+        LocalFailure none;
+        agree_on_kind(processes_, none, kind);
+        exchange_entities(processes_, partners_, entities, pack, take);
+    });
 }
 
 void Migration::move_lists(const Entities& entities, std::span<const std::uint64_t> begin,
@@ -100,9 +104,6 @@ void Migration::move_lists(const Entities& entities, std::span<const std::uint64
                            std::vector<std::uint64_t>& begin_after,
                            const Allocate& allocate) const {
     const std::size_t size = kind.size;
-    LocalFailure failure;
-    failure.attempt([&] { check(processes_, begin, values.size() / size, entities.count_before); });
-    agree_on_kind(processes_, failure, kind);
     // The message has the lengths of all lists, followed by the lists.
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         std::size_t length = sent.size() * sizeof(std::uint64_t);
@@ -154,7 +155,12 @@ void Migration::move_lists(const Entities& entities, std::span<const std::uint64
             }
         }
     };
-    exchange_entities(processes_, partners_, entities, failure, pack, take);
+    processes_.transaction([&] {
+        check(processes_, begin, values.size() / size, entities.count_before);
+        LocalFailure none;
+        agree_on_kind(processes_, none, kind);
+        exchange_entities(processes_, partners_, entities, pack, take);
+    });
 }
 
 }  // namespace octetra::distributed

@@ -12,7 +12,6 @@ namespace octetra::distributed {
 IndexVector<VertexIndex, GlobalVertex> moved_numbers(
     const Communicator& processes, const MovedEntities& moved,
     const IndexVector<VertexIndex, GlobalVertex>& numbers) {
-    LocalFailure failure;
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         std::vector<std::uint8_t> packed;
         std::uint64_t last = 0;
@@ -39,7 +38,7 @@ IndexVector<VertexIndex, GlobalVertex> moved_numbers(
             }
         }
     };
-    exchange_entities(processes, moved.partners, moved.vertices, failure, pack, take);
+    exchange_entities(processes, moved.partners, moved.vertices, pack, take);
     return after;
 }
 

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <utility>
 
-#include "comm/local_failure.hpp"
 #include "sharing/sharing_builder.hpp"
 
 namespace octetra::distributed {
@@ -100,37 +98,24 @@ Sharing<VertexIndex> moved_sharing(const DistributedMesh& after, const Sharing<V
                                    const std::vector<GlobalVertex>& vertices_before,
                                    const Destinations& destinations) {
     const Communicator& processes = after.processes;
-    LocalFailure failure;
-    std::optional<Sharing<VertexIndex>> sharing;  // construction allocates, even of an empty one
-    std::optional<SharingBuilder<VertexIndex>> builder;
     std::vector<int> ranks;
+    for (const auto& with : before.neighbours()) ranks.push_back(with.rank);
     Destinations all;
-    std::vector<Destinations> to_owners;
-    failure.attempt([&] {
-        builder.emplace(sharing.emplace(), processes.rank());
-        for (const auto& with : before.neighbours()) ranks.push_back(with.rank);
-        to_owners = by_owner(before, vertices_before, destinations, ranks, all);
-    });
-    failure.agree(processes);
-    std::vector<Destinations> sent;
-    failure.attempt([&] {
-        for (const Destinations& from_one : processes.exchange_with(ranks, to_owners)) {
-            all.insert(all.end(), from_one.begin(), from_one.end());
-        }
-        sort_and_unite(all);
-        sent = to_holders(all, static_cast<std::size_t>(processes.size()));
-    });
-    failure.agree(processes);
-    failure.attempt([&] {
-        Destinations others;
-        for (const Destinations& from_one : processes.all_to_all(sent)) {
-            others.insert(others.end(), from_one.begin(), from_one.end());
-        }
-        share(after, std::move(others), *builder);
-    });
-    failure.agree(processes);
-    builder->commit();
-    return *std::move(sharing);
+    const auto to_owners = by_owner(before, vertices_before, destinations, ranks, all);
+    for (const Destinations& from_one : processes.exchange_with(ranks, to_owners)) {
+        all.insert(all.end(), from_one.begin(), from_one.end());
+    }
+    sort_and_unite(all);
+    Destinations others;
+    const auto sent = to_holders(all, static_cast<std::size_t>(processes.size()));
+    for (const Destinations& from_one : processes.all_to_all(sent)) {
+        others.insert(others.end(), from_one.begin(), from_one.end());
+    }
+    Sharing<VertexIndex> sharing;
+    SharingBuilder<VertexIndex> builder(sharing, processes.rank());
+    share(after, std::move(others), builder);
+    builder.commit();
+    return sharing;
 }
 
 }  // namespace octetra::distributed

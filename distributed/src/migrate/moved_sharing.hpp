@@ -25,7 +25,7 @@ struct VertexDestination {
 /// Collective. Returns the sharing of the input vertices after a migration; `after` has no levels.
 /// The previous owner of each vertex receives the destinations of the cells at it, and sends them
 /// to the processes that will have the vertex. So messages are sent to previous neighbours, and
-/// from these to destinations of cells. A failure of one process is thrown on all.
+/// from these to destinations of cells.
 [[nodiscard]] Sharing<VertexIndex> moved_sharing(
     const DistributedMesh& after, const Sharing<VertexIndex>& before,
     const std::vector<GlobalVertex>& vertices_before,

@@ -7,8 +7,6 @@
 
 #include <octetra/distributed/communicator.hpp>
 
-#include "comm/local_failure.hpp"
-#include "comm/reduced_numbers.hpp"
 #include "partition/key_search.hpp"
 #include "partition/rcb.hpp"
 
@@ -51,10 +49,8 @@ public:
         std::span<const Key> coordinate;
     };
 
-    /// Collective. `searches` has the range of the coordinates of each box's points. Returns false
-    /// on all processes if one has failed.
-    [[nodiscard]] bool find(const PointBoxes& point_boxes, std::vector<Search>& searches,
-                            LocalFailure& failure);
+    /// Collective. `searches` has the range of the coordinates of each box's points.
+    void find(const PointBoxes& point_boxes, std::vector<Search>& searches);
     [[nodiscard]] const BoxLimits& limits() const { return limits_; }
 
 private:
@@ -67,7 +63,6 @@ private:
         friend auto operator<=>(const RemainingPoint&, const RemainingPoint&) = default;
     };
     enum class By { coordinate, number };
-    enum class Found { failed, incomplete, all };
 
     [[nodiscard]] std::size_t box_of(std::size_t i) const {
         return static_cast<std::size_t>(point_boxes_.box_of[i]);
@@ -82,15 +77,14 @@ private:
     [[nodiscard]] unsigned remaining_rounds() const;
     void for_each_remaining(By by, auto&& visit) const;
     void filter_remaining(By by, std::size_t count);
-    [[nodiscard]] Found find_by(By by, unsigned rounds, LocalFailure& failure);
-    [[nodiscard]] Found find_digit(By by, LocalFailure& failure);
-    [[nodiscard]] bool find_extents(By remaining, By kind, LocalFailure& failure);
-    [[nodiscard]] bool find_among_gathered(By by, LocalFailure& failure);
+    [[nodiscard]] bool find_by(By by, unsigned rounds);
+    [[nodiscard]] std::uint64_t find_digit(By by);
+    void find_extents(By remaining, By kind);
+    void find_among_gathered(By by);
     void set_limits_from_gathered();
 
     const Communicator* processes_;
     const WeighedPoints* points_;
-    ReducedNumbers reduced_;
     std::vector<RemainingPoint> gathered_;  // of all processes
     PointBoxes point_boxes_;
     std::vector<Search>* searches_ = nullptr;

@@ -18,7 +18,6 @@
 #include <octetra/core/selection.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
-#include "comm/local_failure.hpp"
 #include "partition/cell_graph.hpp"
 #include "partition/rcb.hpp"
 
@@ -138,10 +137,7 @@ std::vector<int> by_coordinates(const Mesh& mesh, int parts, const std::vector<f
     if (!weights.empty()) {
         points.weight = [&](std::size_t i) { return integer_weight(weights[i], least); };
     }
-    LocalFailure failure;
-    std::vector<int> part = bisect_coordinates(Communicator(), points, parts, failure);
-    failure.agree(Communicator());
-    return part;
+    return bisect_coordinates(Communicator(), points, parts);
 }
 
 std::vector<int> at_random(std::size_t cells, int parts, std::uint64_t seed) {

@@ -9,7 +9,6 @@
 
 #include <octetra/core/standard_arithmetic.hpp>
 
-#include "comm/local_failure.hpp"
 #include "mark/selection_bounds.hpp"
 
 namespace octetra::distributed {
@@ -50,8 +49,7 @@ std::array<Corners, 8> eighths(const Corners& corners) {
 /// The spheres and boxes of a selection, which mark cells by position alone.
 class Bodies {
 public:
-    /// Allocates memory.
-    void take(const Selection& selection) {
+    explicit Bodies(const Selection& selection) {
         all_.spheres = selection.spheres;
         all_.boxes = selection.boxes;
         for (const Sphere& sphere : selection.spheres) each_.push_back({.spheres = {sphere}});
@@ -105,10 +103,8 @@ public:
         : cells_(&cells),
           children_per_level_(children_per_level(scheme)),
           levels_(levels),
-          full_(std::min(std::pow(children_per_level_, levels), max_children)) {}
-
-    /// Must be called first; allocates memory.
-    void initialise() { expected_.assign(cells_->count(), 1); }
+          full_(std::min(std::pow(children_per_level_, levels), max_children)),
+          expected_(cells.count(), 1) {}
 
     void add_at_random(double share) {
         const double of_all = std::pow(1 + share * (children_per_level_ - 1), levels_);
@@ -208,26 +204,21 @@ std::vector<float> predicted_cells(const CellsToWeigh& cells, const Selection& s
                                    Scheme scheme, int levels) {
     const StandardArithmetic standard;
     if (selection.all || levels < 1) return {};
-    LocalFailure failure;
-    Prediction prediction(cells, scheme, levels);
-    Bodies bodies;
-    std::vector<std::size_t> cut;
-    failure.attempt([&] {
-        prediction.initialise();
+    return cells.processes.transaction([&]() -> std::vector<float> {
+        Prediction prediction(cells, scheme, levels);
         if (selection.random) prediction.add_at_random(selection.random->fraction);
         prediction.add_tagged(selection);
         if (selection.max_volume) prediction.add_larger_than(*selection.max_volume);
-        bodies.take(selection);
-        if (!bodies.empty()) cut = prediction.add_wholly_inside(bodies);
+        const Bodies bodies(selection);
+        if (!bodies.empty()) {
+            const std::vector<std::size_t> cut = prediction.add_wholly_inside(bodies);
+            std::array<std::uint64_t, 2> counts{cut.size(), cells.count()};
+            cells.processes.sum(std::span(counts));
+            prediction.add_partly_inside(bodies, cut, depth_for(counts[0], counts[1]));
+        }
+        if (prediction.is_even()) return {};
+        return std::move(prediction).expected();
     });
-    failure.agree(cells.processes);
-    if (!bodies.empty()) {
-        std::array<std::uint64_t, 2> counts{cut.size(), cells.count()};
-        cells.processes.sum(std::span(counts));
-        prediction.add_partly_inside(bodies, cut, depth_for(counts[0], counts[1]));
-    }
-    if (prediction.is_even()) return {};
-    return std::move(prediction).expected();
 }
 
 std::vector<float> predicted_cells(const Mesh& mesh, const Selection& selection, Scheme scheme,

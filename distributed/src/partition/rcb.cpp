@@ -7,7 +7,6 @@
 
 #include <octetra/core/huge_pages.hpp>
 
-#include "comm/reduced_numbers.hpp"
 #include "partition/bisection_limits.hpp"
 #include "partition/key_search.hpp"
 
@@ -21,10 +20,8 @@ public:
     Bisection(const Communicator& processes, const WeighedPoints& points, int parts)
         : processes_(&processes),
           points_(&points),
-          extremes_(6 * static_cast<std::size_t>(parts)),
           limits_(processes, points, parts),
           boxes_{{0, parts}},
-          sample_(extremes_of_sample()),
           axis_{0} {
         reserve_in_huge_pages(coordinate_, points.count);
         coordinate_.resize(points.count);
@@ -34,21 +31,14 @@ public:
         extents_.reserve(static_cast<std::size_t>(parts));
     }
 
-    /// Guesses the longest axis from a few points of each process.
-    void store_sample(std::span<Key, 6> keys) const { sample_.put(keys); }
-    void guess_axis(std::span<const Key, 6> of_all) { axis_[0] = longest(extent_between(of_all)); }
-
-    /// Collective. Divides every box that is to be more than one part. Returns false if there is
-    /// none, or if a process has failed.
-    bool cut_boxes(LocalFailure& failure) {
-        if (std::ranges::all_of(boxes_, &BisectionBox::is_part)) return false;
-        if (!find_axes(failure)) return false;
-        if (!limits_.find({boxes_, box_of_, coordinate_}, searches_, failure)) return false;
-        failure.attempt([&] { divide(); });
-        return failure.max_unless_failed(*processes_, 0) != LocalFailure::somewhere;
-    }
-
+    /// Collective. Returns the part of each point.
     [[nodiscard]] std::vector<int> parts() && {
+        guess_axis();
+        while (!std::ranges::all_of(boxes_, &BisectionBox::is_part)) {
+            find_axes();
+            limits_.find({boxes_, box_of_, coordinate_}, searches_);
+            divide();
+        }
         for (int& box : box_of_) box = boxes_[static_cast<std::size_t>(box)].begin;
         return std::move(box_of_);
     }
@@ -116,21 +106,28 @@ private:
         return extremes;
     }
 
+    /// Collective. Guesses the longest axis from a few points of each process.
+    void guess_axis() {
+        std::array<Key, 6> keys{};
+        extremes_of_sample().put(keys);
+        processes_->max(std::span<Key>(keys));
+        axis_[0] = longest(extent_between(keys));
+    }
+
     /// Collective. Determines the longest axis of each box, and the coordinate of each point along
-    /// it. The axis is guessed first, since a second pass over the points takes time. Returns false
-    /// on all processes if one has failed.
-    bool find_axes(LocalFailure& failure) {
-        const auto keys = extremes_.zeros(6 * boxes_.size());
-        const auto of_box = [keys](std::size_t b) { return keys.subspan(6 * b).first<6>(); };
-        failure.attempt([&] {
-            std::vector<Extremes> extremes(boxes_.size());
-            for_each_point([&](std::size_t i, const Point& p) {
-                extremes[box_of(i)].take(p);
-                coordinate_[i] = key_of(along(axis_[box_of(i)], p));
-            });
-            for (std::size_t b = 0; b < boxes_.size(); ++b) extremes[b].put(of_box(b));
+    /// it. The axis is guessed first, since a second pass over the points takes time.
+    void find_axes() {
+        std::vector<Key> keys(6 * boxes_.size());
+        const auto of_box = [&](std::size_t b) {
+            return std::span(keys).subspan(6 * b).first<6>();
+        };
+        std::vector<Extremes> extremes(boxes_.size());
+        for_each_point([&](std::size_t i, const Point& p) {
+            extremes[box_of(i)].take(p);
+            coordinate_[i] = key_of(along(axis_[box_of(i)], p));
         });
-        if (!extremes_.max(*processes_, failure)) return false;
+        for (std::size_t b = 0; b < boxes_.size(); ++b) extremes[b].put(of_box(b));
+        processes_->max(std::span(keys));
         extents_.clear();
         searches_.clear();
         bool is_as_guessed = true;
@@ -142,13 +139,10 @@ private:
             const auto along_axis = of_box(b).subspan(2 * axis_[b], 2);
             searches_.push_back(between(~along_axis[1], along_axis[0], is_empty(of_box(b))));
         }
-        failure.attempt([&] {
-            if (is_as_guessed) return;
-            for_each_point([&](std::size_t i, const Point& p) {
-                coordinate_[i] = key_of(along(axis_[box_of(i)], p));
-            });
+        if (is_as_guessed) return;
+        for_each_point([&](std::size_t i, const Point& p) {
+            coordinate_[i] = key_of(along(axis_[box_of(i)], p));
         });
-        return true;
     }
 
     void divide() {
@@ -192,12 +186,10 @@ private:
 
     const Communicator* processes_;
     const WeighedPoints* points_;
-    ReducedNumbers extremes_;
     LimitSearch limits_;
     std::vector<Key> coordinate_;  // along the axis of the point's box
     std::vector<int> box_of_;
     std::vector<BisectionBox> boxes_;
-    Extremes sample_;
     std::vector<std::size_t> axis_;
     std::vector<std::array<double, 3>> extents_;
     std::vector<Search> searches_;
@@ -206,35 +198,21 @@ private:
 }  // namespace
 
 std::vector<int> bisect_coordinates(const Communicator& processes, const WeighedPoints& points,
-                                    int parts, LocalFailure& failure) {
-    std::vector<Bisection> bisection;
-    std::array<Key, 7> reduced_keys{};  // sampled extremes, and whether a process has failed
-    const auto keys = std::span(reduced_keys).first<6>();
-    failure.attempt([&] { bisection.emplace_back(processes, points, parts).store_sample(keys); });
-    if (failure.found()) reduced_keys.back() = 1;
-    processes.max(std::span(reduced_keys));
-    if (reduced_keys.back() != 0) return {};
-    bisection.front().guess_axis(keys);
-    while (bisection.front().cut_boxes(failure)) {
-    }
-    std::vector<int> part_of;
-    failure.attempt([&] { part_of = std::move(bisection.front()).parts(); });
-    return part_of;
+                                    int parts) {
+    return Bisection(processes, points, parts).parts();
 }
 
 std::vector<int> bisect_coordinates(const Communicator& processes,
-                                    const std::vector<WeighedPoint>& points, int parts,
-                                    LocalFailure& failure) {
-    WeighedPoints indexed_points;
-    failure.attempt([&] {
-        indexed_points.count = points.size();
-        indexed_points.points = [&](std::size_t first, std::span<Point> positions) {
-            for (Point& position : positions) position = points[first++].point;
-        };
-        indexed_points.number = [&](std::size_t i) { return points[i].number; };
-        indexed_points.weight = [&](std::size_t i) { return points[i].weight; };
-    });
-    return bisect_coordinates(processes, indexed_points, parts, failure);
+                                    const std::vector<WeighedPoint>& points, int parts) {
+    const auto positions = [&](std::size_t first, std::span<Point> some) {
+        for (Point& position : some) position = points[first++].point;
+    };
+    return bisect_coordinates(processes,
+                              {.count = points.size(),
+                               .points = positions,
+                               .number = [&](std::size_t i) { return points[i].number; },
+                               .weight = [&](std::size_t i) { return points[i].weight; }},
+                              parts);
 }
 
 }  // namespace octetra::distributed

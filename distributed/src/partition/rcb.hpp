@@ -11,8 +11,6 @@
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/communicator.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 
 /// Returns the position of a cell: the mean of its corners, with rounding that depends on their
@@ -60,12 +58,11 @@ struct WeighedPoints {
 /// For each level of the tree, processes reduce the extent of each box, then arrays of sums, one
 /// array per digit, of 2^13 numbers for all boxes together or of four for each, until at most 2^11
 /// points may be at a limit, and then these points: about six reductions, more if many coordinates
-/// are equal. If a process has failed or fails, the result must not be used on any process.
+/// are equal.
 [[nodiscard]] std::vector<int> bisect_coordinates(const Communicator& processes,
-                                                  const WeighedPoints& points, int parts,
-                                                  LocalFailure& failure);
+                                                  const WeighedPoints& points, int parts);
 [[nodiscard]] std::vector<int> bisect_coordinates(const Communicator& processes,
                                                   const std::vector<WeighedPoint>& points,
-                                                  int parts, LocalFailure& failure);
+                                                  int parts);
 
 }  // namespace octetra::distributed

@@ -226,7 +226,9 @@ private:
                     return integer_weight(weights.of_cells[i], weights.least);
                 };
             }
-            parts = bisect_coordinates(processes_, points, processes_.size(), failure_);
+            failure_.agree(processes_);
+            parts = processes_.transaction(
+                [&] { return bisect_coordinates(processes_, points, processes_.size()); });
         } else {
             failure_.attempt([&] { parts = parts_by_number(processes_, share_); });
         }

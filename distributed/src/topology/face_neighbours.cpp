@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "comm/local_failure.hpp"
 #include "partition/inner_faces.hpp"
 
 namespace octetra::distributed {
@@ -56,14 +55,11 @@ private:
 }  // namespace
 
 FaceNeighbours find_face_neighbours(const DistributedMesh& mesh) {
-    FaceNeighbours neighbours;
+    FaceNeighbours neighbours = inner_neighbours(mesh);
     std::vector<int> ranks;
     std::vector<std::vector<BoundaryFace>> shared;
     std::vector<std::vector<CellIndex>> cells;
-    LocalFailure failure;
-    failure.attempt([&] {
-        neighbours = inner_neighbours(mesh);
-        if (mesh.interfaces.empty()) return;
+    if (!mesh.interfaces.empty()) {
         const OuterFaces outer(mesh, neighbours);
         for (const Interface& interface : mesh.interfaces) {
             ranks.push_back(interface.rank);
@@ -74,10 +70,8 @@ FaceNeighbours find_face_neighbours(const DistributedMesh& mesh) {
                 outbox.push_back(faces.back().cell);
             }
         }
-    });
-    failure.agree(mesh.processes);
-    failure.attempt([&] { cells = mesh.processes.exchange_with(ranks, cells); });
-    failure.agree(mesh.processes);
+    }
+    cells = mesh.processes.exchange_with(ranks, cells);
     for (std::size_t i = 0; i < ranks.size(); ++i) {
         for (std::size_t k = 0; k < cells[i].size(); ++k) {
             const auto& [cell, face] = shared[i][k];

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -11,7 +10,6 @@
 #include <octetra/core/vertex_buckets.hpp>
 
 #include "comm/local_failure.hpp"
-#include "comm/same_arguments.hpp"
 #include "comm/value_kinds.hpp"
 
 namespace octetra::distributed {
@@ -130,40 +128,31 @@ void take(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
 }  // namespace
 
 GhostLayer find_ghosts(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
-                       const Sharing<VertexIndex>& sharing,
-                       const std::function<std::vector<Marker>()>& regions, GhostsBy by) {
+                       const Sharing<VertexIndex>& sharing, const std::vector<Marker>& regions,
+                       GhostsBy by) {
     const Communicator& processes = mesh.processes;
+    processes.check_same("argument by", by == GhostsBy::face ? "face" : "vertex");
     const bool with_regions = processes.max(mesh.cell_ancestors.markers.empty() ? 0 : 1) == 1;
     GhostLayer layer;
     layer.own_cell_count = mesh.cells.size();
+    layer.exchanges = by == GhostsBy::face ? ghosts_by_face(mesh) : ghosts_by_vertex(mesh, sharing);
     std::vector<int> ranks;
     std::vector<std::vector<SentCell>> outboxes;
-    LocalFailure failure;
-    failure.attempt([&] {
-        const std::vector<Marker> tags = regions();
-        layer.exchanges =
-            by == GhostsBy::face ? ghosts_by_face(mesh) : ghosts_by_vertex(mesh, sharing);
-        for (const GhostLayer::Exchange& exchange : layer.exchanges) {
-            ranks.push_back(exchange.rank);
-            auto& outbox = outboxes.emplace_back();
-            for (const CellIndex c : exchange.sent) {
-                SentCell& sent = outbox.emplace_back();
-                sent.cell = c;
-                if (!tags.empty()) sent.region = tags[c.value()];
-                for (std::size_t k = 0; k < 4; ++k) {
-                    const VertexIndex v = mesh.cells[c][k];
-                    sent.vertices[k] = static_cast<std::uint64_t>(numbers.of_vertex[v]);
-                    sent.points[k] = mesh.points[v];
-                }
+    for (const GhostLayer::Exchange& exchange : layer.exchanges) {
+        ranks.push_back(exchange.rank);
+        auto& outbox = outboxes.emplace_back();
+        for (const CellIndex c : exchange.sent) {
+            SentCell& sent = outbox.emplace_back();
+            sent.cell = c;
+            if (!regions.empty()) sent.region = regions[c.value()];
+            for (std::size_t k = 0; k < 4; ++k) {
+                const VertexIndex v = mesh.cells[c][k];
+                sent.vertices[k] = static_cast<std::uint64_t>(numbers.of_vertex[v]);
+                sent.points[k] = mesh.points[v];
             }
         }
-    });
-    agree_on_same(processes, failure, "argument by",
-                  [&] { return std::string(by == GhostsBy::face ? "face" : "vertex"); });
-    failure.attempt([&] {
-        take(mesh, numbers, processes.exchange_with(ranks, outboxes), with_regions, layer);
-    });
-    failure.agree(processes);
+    }
+    take(mesh, numbers, processes.exchange_with(ranks, outboxes), with_regions, layer);
     return layer;
 }
 
@@ -171,17 +160,15 @@ void GhostLayer::exchange(const Communicator& processes, std::span<const std::by
                           const detail::ValueKind& kind,
                           const std::function<std::byte*()>& allocate) const {
     const std::size_t entry_size = kind.entry_size();
-    std::byte* ghosts = nullptr;
-    std::vector<int> ranks;
-    std::vector<std::vector<std::byte>> outboxes;
-    LocalFailure failure;
-    failure.attempt([&] {
+    processes.transaction([&] {
         if (own.size() != own_cell_count * entry_size) {
             throw InputError(fmt::format("rank {}: {} values for cells, and {} are needed",
                                          processes.rank(), own.size() / kind.size,
                                          own_cell_count * kind.components));
         }
-        ghosts = allocate();
+        std::byte* ghosts = allocate();
+        std::vector<int> ranks;
+        std::vector<std::vector<std::byte>> outboxes;
         for (const Exchange& with : exchanges) {
             ranks.push_back(with.rank);
             auto& outbox = outboxes.emplace_back(with.sent.size() * entry_size);
@@ -190,16 +177,16 @@ void GhostLayer::exchange(const Communicator& processes, std::span<const std::by
                             own.data() + with.sent[k].value() * entry_size, entry_size);
             }
         }
+        LocalFailure none;
+        agree_on_kind(processes, none, kind);
+        const auto inboxes = processes.exchange_with(ranks, outboxes);
+        agree_on_sizes(processes, none, ranks, inboxes,
+                       [&](std::size_t n) { return exchanges[n].received * entry_size; });
+        for (const auto& inbox : inboxes) {
+            if (!inbox.empty()) std::memcpy(ghosts, inbox.data(), inbox.size());
+            ghosts += inbox.size();
+        }
     });
-    agree_on_kind(processes, failure, kind);
-    std::vector<std::vector<std::byte>> inboxes;
-    failure.attempt([&] { inboxes = processes.exchange_with(ranks, outboxes); });
-    agree_on_sizes(processes, failure, ranks, inboxes,
-                   [&](std::size_t n) { return exchanges[n].received * entry_size; });
-    for (const auto& inbox : inboxes) {
-        if (!inbox.empty()) std::memcpy(ghosts, inbox.data(), inbox.size());
-        ghosts += inbox.size();
-    }
 }
 
 }  // namespace octetra::distributed

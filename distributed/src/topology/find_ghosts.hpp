@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include <octetra/distributed/ghosts.hpp>
@@ -10,10 +9,10 @@
 
 namespace octetra::distributed {
 
-/// Collective. Returns the ghosts of this process. `regions` returns the tags of its cells.
+/// Collective. Returns the ghosts of this process. `regions` are the tags of its cells, or empty if
+/// there are none.
 [[nodiscard]] GhostLayer find_ghosts(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
                                      const Sharing<VertexIndex>& sharing,
-                                     const std::function<std::vector<Marker>()>& regions,
-                                     GhostsBy by);
+                                     const std::vector<Marker>& regions, GhostsBy by);
 
 }  // namespace octetra::distributed

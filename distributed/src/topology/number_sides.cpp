@@ -69,25 +69,19 @@ Sides<I, N, PerCell> number(const DistributedMesh& mesh, const CanonicalNumbers&
                             auto&& shared_of) {
     Sides<I, N, PerCell> sides;
     SharingBuilder<I> sharing(sides.sharing, mesh.processes.rank());
-    LocalFailure failure;
-    failure.attempt([&] { number_locally(mesh, places, sides); });
+    number_locally(mesh, places, sides);
     // The local and global numbers of vertices have the same order, so sides are ascending by
     // either.
-    const bool numbered =
-        append_ranked<N>(sides.numbers, mesh.processes, sides.vertices, numbers.of_vertex,
-                         shared_vertices, numbers.vertex_count, sides.count, failure);
-    failure.attempt([&] {
-        if (!numbered) return;
-        for (const Interface& interface : mesh.interfaces) {
-            std::vector<I> shared;
-            for (const auto& corners : shared_of(interface)) {
-                shared.push_back(find(sides, corners));
-            }
-            sharing.share(interface.rank, std::move(shared));
-        }
-        sharing.prepare([&](I i) { return sides.numbers[i]; });
-    });
-    failure.agree(mesh.processes);
+    LocalFailure none;
+    (void)append_ranked<N>(sides.numbers, mesh.processes, sides.vertices, numbers.of_vertex,
+                           shared_vertices, numbers.vertex_count, sides.count, none);
+    none.agree(mesh.processes);
+    for (const Interface& interface : mesh.interfaces) {
+        std::vector<I> shared;
+        for (const auto& corners : shared_of(interface)) shared.push_back(find(sides, corners));
+        sharing.share(interface.rank, std::move(shared));
+    }
+    sharing.prepare([&](I i) { return sides.numbers[i]; });
     sharing.commit();
     return sides;
 }

@@ -136,8 +136,8 @@ public:
     /// has a byte for each cell of this process; a nonzero byte marks the cell.
     Adaptation refine(std::span<const std::uint8_t> marks, const StepOptions& options = {});
     /// The same for programs that compute marks from other data: every process calls `request`, and
-    /// an exception that it throws on one process is thrown on all, without additional
-    /// communication. `request` must not call collective functions; it may call detach_arrays().
+    /// an exception that it throws on one process is thrown on all. `request` must not call
+    /// collective functions; it may call detach_arrays().
     Adaptation refine(const std::function<StepRequest()>& request);
     /// The same for a list of cells, in any order, as local numbers.
     Adaptation refine(std::span<const CellIndex> marked, const StepOptions& options = {});

@@ -154,6 +154,11 @@ public:
         return std::move(send_and_receive<T>(if_first(), to_each, every_rank().first(1)).front());
     }
 
+    /// Collective within a transaction, where every collective function begins with it; otherwise
+    /// does nothing. Ends the work of the transaction if a process has failed. Called after an
+    /// exchange if incomplete messages, of a process without memory, must not be read.
+    void agree_on_success() const;
+
     struct Mpi;  // wraps an MPI communicator; see octetra/distributed/mpi.hpp
     explicit Communicator(std::shared_ptr<const Mpi> mpi);
     [[nodiscard]] const Mpi* mpi() const { return mpi_.get(); }  ///< null: this process alone
@@ -174,9 +179,6 @@ private:
         return is_first() ? every_rank() : std::span<const int>{};
     }
     void run_transaction(const std::function<void()>& work) const override;
-    /// Collective within a transaction, where every collective function begins with it; otherwise
-    /// does nothing. Throws OthersFailed if a process has failed.
-    void agree_on_success() const;
     /// Collective. The same, and the greatest of the numbers.
     [[nodiscard]] std::uint64_t agreed_max(std::uint64_t number) const;
     [[nodiscard]] std::size_t broadcast_size(std::size_t size) const;

@@ -34,9 +34,7 @@ requires(std::floating_point<T> || is_complex<T>)
                                                          const Adaptation& step,
                                                          std::vector<T> values,
                                                          std::size_t components = 1) {
-    std::vector<T> after;
-    std::vector<T> corrections;
-    mesh.processes().transaction([&] {
+    return mesh.processes().transaction([&] {
         if (values.size() != step.vertex_count_before * components) {
             throw InputError("values do not fit the mesh as it was before the step");
         }
@@ -46,9 +44,9 @@ requires(std::floating_point<T> || is_complex<T>)
         if (count != mesh.points().size() || step.cells.count() != mesh.cells().size()) {
             throw InputError("the step did not lead to the current mesh");
         }
-        after = step.transfer_vertices(values, components);
-        if (!step.is_coarser()) return;
-        corrections.assign(after.size(), T{});
+        std::vector<T> after = step.transfer_vertices(values, components);
+        if (!step.is_coarser()) return after;
+        std::vector<T> corrections(after.size(), T{});
         for (const auto& [before, ends, volume] : step.removed_vertices) {
             const auto& [a, b] = ends;
             for (std::size_t k = 0; k < components; ++k) {
@@ -61,16 +59,15 @@ requires(std::floating_point<T> || is_complex<T>)
                 corrections[b.value() * components + k] += half;
             }
         }
+        const std::vector<double> volumes = mesh.vertex_volumes();
+        combine_everywhere(mesh.processes(), mesh.vertex_sharing(), volumes.size(), corrections,
+                           std::plus<>{}, components);
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            if (corrections[i] == T{}) continue;
+            after[i] += corrections[i] / static_cast<Real<T>>(volumes[i / components]);
+        }
+        return after;
     });
-    if (!step.is_coarser()) return after;
-    const std::vector<double> volumes = mesh.vertex_volumes();
-    combine_everywhere(mesh.processes(), mesh.vertex_sharing(), volumes.size(), corrections,
-                       std::plus<>{}, components);
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        if (corrections[i] == T{}) continue;
-        after[i] += corrections[i] / static_cast<Real<T>>(volumes[i / components]);
-    }
-    return after;
 }
 
 }  // namespace octetra::distributed

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -50,11 +51,15 @@ void check(std::span<const double> indicators, int rank) {
     }
 }
 
-/// Collective. Checks all arguments.
-void check(const Communicator& processes, std::span<const double> indicators,
-           const Parameter& parameter) {
-    check(parameter, processes.of_rank(0, parameter.value), processes.rank());
-    check(indicators, processes.rank());
+/// Collective. In a transaction, checks all arguments and performs `work`, which allocates all
+/// memory. Nothing fails after it, so that reductions need no agreement.
+void prepare(const Communicator& processes, std::span<const double> indicators,
+             const Parameter& parameter, auto&& work) {
+    processes.transaction([&] {
+        check(parameter, processes.of_rank(0, parameter.value), processes.rank());
+        check(indicators, processes.rank());
+        work();
+    });
 }
 
 /// The number of thresholds that are tried at once: with 15, each round determines four bits.
@@ -98,52 +103,67 @@ std::array<ExactSum, trial_count> sums_from(const Trials& thresholds, const Comm
     return of_all;
 }
 
-std::vector<std::uint8_t> marks_from(std::uint64_t threshold, std::span<const double> indicators) {
-    std::vector<std::uint8_t> marks(indicators.size());
+void mark_from(std::uint64_t threshold, std::span<const double> indicators,
+               std::vector<std::uint8_t>& marks) {
     std::ranges::transform(indicators, marks.begin(), [&](double indicator) {
         return static_cast<std::uint8_t>(bits_of(indicator) >= threshold ? 1 : 0);
     });
-    return marks;
 }
 
-/// Collective.
-std::vector<std::uint8_t> bulk_marks(const Communicator& processes,
-                                     std::span<const double> indicators, double theta) {
-    check(processes, indicators,
-          {"theta", theta, std::numeric_limits<double>::denorm_min(), "(0, 1]"});
-    const std::vector<std::uint64_t> descending = descending_bits(indicators);
-    const RankedSums sums(descending);
-    auto limbs = sums.of_first(descending.size()).limbs();
+}  // namespace
+
+std::vector<std::uint8_t> mark_bulk(const Communicator& processes,
+                                    std::span<const double> indicators, double theta) {
+    const StandardArithmetic standard;
+    std::vector<std::uint8_t> marks;
+    std::vector<std::uint64_t> descending;
+    std::optional<RankedSums> sums;
+    const Parameter share{"theta", theta, std::numeric_limits<double>::denorm_min(), "(0, 1]"};
+    prepare(processes, indicators, share, [&] {
+        descending = descending_bits(indicators);
+        sums.emplace(descending);
+        marks.resize(indicators.size());
+    });
+    auto limbs = sums->of_first(descending.size()).limbs();
     processes.sum(limbs);
     const ExactSum total(limbs);
-    if (total == ExactSum()) return std::vector<std::uint8_t>(indicators.size());
+    if (total == ExactSum()) return marks;
     const ExactSum needed = total.share(theta);
     const auto greatest = processes.max(descending.empty() ? 0 : descending.front());
     const auto threshold = greatest_threshold(greatest, [&](const Trials& trials) {
-        const auto of_all = sums_from(trials, processes, descending, sums);
+        const auto of_all = sums_from(trials, processes, descending, *sums);
         return static_cast<std::size_t>(
             std::ranges::count_if(of_all, [&](const ExactSum& sum) { return sum >= needed; }));
     });
-    return marks_from(threshold, indicators);
+    mark_from(threshold, indicators, marks);
+    return marks;
 }
 
-/// Collective.
-std::vector<std::uint8_t> maximum_marks(const Communicator& processes,
-                                        std::span<const double> indicators, double share) {
-    check(processes, indicators, {"share", share, 0, "[0, 1]"});
+std::vector<std::uint8_t> mark_maximum(const Communicator& processes,
+                                       std::span<const double> indicators, double share) {
+    const StandardArithmetic standard;
+    std::vector<std::uint8_t> marks;
+    prepare(processes, indicators, {"share", share, 0, "[0, 1]"},
+            [&] { marks.resize(indicators.size()); });
     std::uint64_t greatest = 0;
     for (const double indicator : indicators) greatest = std::max(greatest, bits_of(indicator));
     greatest = processes.max(greatest);
     const double product = share * std::bit_cast<double>(greatest);
-    return marks_from(std::max(bits_of(product), min_threshold), indicators);
+    mark_from(std::max(bits_of(product), min_threshold), indicators, marks);
+    return marks;
 }
 
-/// Collective.
-std::vector<std::uint8_t> fraction_marks(const Communicator& processes,
-                                         std::span<const double> indicators, double fraction) {
-    check(processes, indicators,
-          {"fraction", fraction, std::numeric_limits<double>::denorm_min(), "(0, 1]"});
-    const std::vector<std::uint64_t> descending = descending_bits(indicators);
+std::vector<std::uint8_t> mark_fraction(const Communicator& processes,
+                                        std::span<const double> indicators, double fraction) {
+    const StandardArithmetic standard;
+    std::vector<std::uint8_t> marks;
+    std::vector<std::uint64_t> descending;
+    const Parameter share{"fraction", fraction, std::numeric_limits<double>::denorm_min(),
+                          "(0, 1]"};
+    prepare(processes, indicators, share, [&] {
+        descending = descending_bits(indicators);
+        marks.resize(indicators.size());
+    });
     const std::uint64_t cells = processes.sum(indicators.size());
     const auto wanted =
         static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(cells)));
@@ -156,27 +176,8 @@ std::vector<std::uint8_t> fraction_marks(const Communicator& processes,
         return static_cast<std::size_t>(
             std::ranges::count_if(counts, [&](std::uint64_t count) { return count >= wanted; }));
     });
-    return marks_from(threshold, indicators);
-}
-
-}  // namespace
-
-std::vector<std::uint8_t> mark_bulk(const Communicator& processes,
-                                    std::span<const double> indicators, double theta) {
-    const StandardArithmetic standard;
-    return processes.transaction([&] { return bulk_marks(processes, indicators, theta); });
-}
-
-std::vector<std::uint8_t> mark_maximum(const Communicator& processes,
-                                       std::span<const double> indicators, double share) {
-    const StandardArithmetic standard;
-    return processes.transaction([&] { return maximum_marks(processes, indicators, share); });
-}
-
-std::vector<std::uint8_t> mark_fraction(const Communicator& processes,
-                                        std::span<const double> indicators, double fraction) {
-    const StandardArithmetic standard;
-    return processes.transaction([&] { return fraction_marks(processes, indicators, fraction); });
+    mark_from(threshold, indicators, marks);
+    return marks;
 }
 
 }  // namespace octetra::distributed

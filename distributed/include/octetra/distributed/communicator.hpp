@@ -155,8 +155,8 @@ public:
     }
 
     /// Collective within a transaction, where every collective function begins with it; otherwise
-    /// does nothing. Ends the work of the transaction if a process has failed. Called after an
-    /// exchange if incomplete messages, of a process without memory, must not be read.
+    /// does nothing. Leaves the transaction if a process has failed. After it, the messages that
+    /// were received before are complete: a process without memory has sent none.
     void agree_on_success() const;
 
     struct Mpi;  // wraps an MPI communicator; see octetra/distributed/mpi.hpp

@@ -7,8 +7,6 @@
 #include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/profile.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 namespace {
 
@@ -40,10 +38,7 @@ NumberedLevel::NumberedLevel(AdaptiveMesh::State& state, PlannedLevel plan)
     const DistributedMesh& mesh = state.mesh;
     {
         const Phase phase(mesh.processes, "number vertices");
-        LocalFailure none;
-        (void)state.numbers.number_midpoints(mesh, mesh.points.end_index(), state.sharing.shared(),
-                                             none);
-        none.agree(mesh.processes);
+        state.numbers.number_midpoints(mesh, mesh.points.end_index(), state.sharing.shared());
     }
     {
         const Phase phase(mesh.processes, "sharers");

@@ -11,7 +11,6 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "checkpoint/load_tagged.hpp"
-#include "comm/local_failure.hpp"
 #include "history/cut_roots.hpp"
 #include "partition/rcb.hpp"
 #include "setup/owners.hpp"
@@ -104,27 +103,20 @@ std::vector<std::uint64_t> vertices_of(const Roots& roots) {
 
 /// Collective. Throws unless the table's facts about each step equal the sums over all processes.
 void check_steps(const Communicator& processes, const CheckpointReader& file,
-                 const ShareOfFile& share, LocalFailure& failure) {
+                 const ShareOfFile& share) {
     if (file.facts().steps.empty()) return;
-    std::vector<std::uint64_t> numbers;
-    failure.attempt([&] {
-        numbers.resize(3 * file.facts().steps.size());
-        for (std::size_t t = 0; t < share.found.size(); ++t) {
-            const StepFacts& step = share.found[t];
-            std::ranges::copy(std::array{step.cells_before, step.cells_cut, step.bytes},
-                              numbers.begin() + static_cast<std::ptrdiff_t>(3 * t));
-        }
-    });
-    failure.agree(processes);
+    std::vector<std::uint64_t> numbers(3 * file.facts().steps.size());
+    for (std::size_t t = 0; t < share.found.size(); ++t) {
+        const StepFacts& step = share.found[t];
+        std::ranges::copy(std::array{step.cells_before, step.cells_cut, step.bytes},
+                          numbers.begin() + static_cast<std::ptrdiff_t>(3 * t));
+    }
     processes.sum(std::span(numbers));
-    failure.attempt([&] {
-        std::vector<StepFacts> found;
-        for (std::size_t k = 0; k < numbers.size(); k += 3) {
-            found.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
-        }
-        file.check_steps(found);
-    });
-    failure.agree(processes);
+    std::vector<StepFacts> found;
+    for (std::size_t k = 0; k < numbers.size(); k += 3) {
+        found.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+    }
+    file.check_steps(found);
 }
 
 /// The share of vertices that this process reads.
@@ -147,11 +139,10 @@ struct VertexShare {
 
 /// Collective. Returns the parts of this process's share of the cells, by coordinates.
 std::vector<int> parts_by_coordinates(const Communicator& processes, const ShareOfFile& share,
-                                      const VertexShare& vertices, LocalFailure& failure) {
-    std::vector<std::uint64_t> numbers;
-    failure.attempt([&] { numbers = vertices_of(share.roots); });
-    const Requests requests = request(processes, vertices.owners, numbers, failure);
-    const auto points = fetch(processes, requests, vertices.points, vertices.begin, failure);
+                                      const VertexShare& vertices) {
+    const std::vector<std::uint64_t> numbers = vertices_of(share.roots);
+    const Requests requests = request(processes, vertices.owners, numbers);
+    const auto points = fetch(processes, requests, vertices.points, vertices.begin);
     const auto& roots = share.roots.roots;
     const auto centroid_of = [&](std::size_t i) {
         Corners corners;
@@ -162,22 +153,17 @@ std::vector<int> parts_by_coordinates(const Communicator& processes, const Share
         return place_of(corners);
     };
     std::vector<Point> centroids;
-    failure.attempt([&] {
-        centroids.reserve(roots.size());
-        for (std::size_t i = 0; i < roots.size(); ++i) centroids.push_back(centroid_of(i));
-    });
+    centroids.reserve(roots.size());
+    for (std::size_t i = 0; i < roots.size(); ++i) centroids.push_back(centroid_of(i));
     const auto some = [&](std::size_t first, std::span<Point> places) {
         std::ranges::copy(std::span(centroids).subspan(first, places.size()), places.begin());
     };
-    failure.agree(processes);
-    return processes.transaction([&] {
-        return bisect_coordinates(processes,
-                                  {.count = roots.size(),
-                                   .points = some,
-                                   .number = [&](std::size_t i) { return roots[i].number; },
-                                   .weight = [&](std::size_t i) { return share.weights[i]; }},
-                                  processes.size());
-    });
+    return bisect_coordinates(processes,
+                              {.count = roots.size(),
+                               .points = some,
+                               .number = [&](std::size_t i) { return roots[i].number; },
+                               .weight = [&](std::size_t i) { return share.weights[i]; }},
+                              processes.size());
 }
 
 /// Collective. Same, by a method that requires the whole input on the first process.
@@ -185,58 +171,45 @@ std::vector<int> parts_of_whole(const Communicator& processes, const ShareOfFile
                                 const std::filesystem::path& path, const Partition& partition) {
     const auto weights = processes.gather(share.weights);
     std::vector<std::vector<int>> parts(weights.size());
-    processes.on_first([&] {
-        std::vector<float> weight_of;
-        if (takes_weights(partition)) {
-            for (const auto& of_one : weights) {
-                for (const std::uint64_t w : of_one) weight_of.push_back(static_cast<float>(w));
-            }
+    if (!processes.is_first()) return processes.scatter(parts);
+    std::vector<float> weight_of;
+    if (takes_weights(partition)) {
+        for (const auto& of_one : weights) {
+            for (const std::uint64_t w : of_one) weight_of.push_back(static_cast<float>(w));
         }
-        const Mesh input = read_checkpoint(path).input;
-        const auto all = partition_cells(input, processes.size(), partition, weight_of);
-        auto next = all.begin();
-        for (std::size_t rank = 0; rank < parts.size(); ++rank) {
-            const auto end = next + static_cast<std::ptrdiff_t>(weights[rank].size());
-            parts[rank].assign(next, end);
-            next = end;
-        }
-    });
+    }
+    const Mesh input = read_checkpoint(path).input;
+    const auto all = partition_cells(input, processes.size(), partition, weight_of);
+    auto next = all.begin();
+    for (std::size_t rank = 0; rank < parts.size(); ++rank) {
+        const auto end = next + static_cast<std::ptrdiff_t>(weights[rank].size());
+        parts[rank].assign(next, end);
+        next = end;
+    }
     return processes.scatter(parts);
 }
 
 /// Collective. Sends cells to their parts; each process receives its own in ascending order.
-Roots send(const Communicator& processes, const Roots& roots, const std::vector<int>& parts,
-           LocalFailure& failure) {
-    std::vector<std::vector<Roots::Root>> root_boxes;
-    std::vector<std::vector<std::uint8_t>> cut_boxes;
-    failure.attempt([&] {
-        root_boxes.resize(static_cast<std::size_t>(processes.size()));
-        cut_boxes.resize(root_boxes.size());
-        auto cuts = roots.cuts.begin();
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            const auto rank = static_cast<std::size_t>(parts[i]);
-            const auto end = cuts + roots.roots[i].cut_bytes;
-            root_boxes[rank].push_back(roots.roots[i]);
-            cut_boxes[rank].insert(cut_boxes[rank].end(), cuts, end);
-            cuts = end;
-        }
-    });
-    failure.agree(processes);
+Roots send(const Communicator& processes, const Roots& roots, const std::vector<int>& parts) {
+    std::vector<std::vector<Roots::Root>> root_boxes(static_cast<std::size_t>(processes.size()));
+    std::vector<std::vector<std::uint8_t>> cut_boxes(root_boxes.size());
+    auto cuts = roots.cuts.begin();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto rank = static_cast<std::size_t>(parts[i]);
+        const auto end = cuts + roots.roots[i].cut_bytes;
+        root_boxes[rank].push_back(roots.roots[i]);
+        cut_boxes[rank].insert(cut_boxes[rank].end(), cuts, end);
+        cuts = end;
+    }
     // Shares are in the order of ranks, so the received cells ascend.
     Roots received;
-    failure.attempt([&] {
-        for (const auto& box : processes.all_to_all(root_boxes)) {
-            received.roots.insert(received.roots.end(), box.begin(), box.end());
-        }
-        root_boxes.clear();
-    });
-    failure.agree(processes);
-    failure.attempt([&] {
-        for (const auto& box : processes.all_to_all(cut_boxes)) {
-            received.cuts.insert(received.cuts.end(), box.begin(), box.end());
-        }
-    });
-    failure.agree(processes);
+    for (const auto& box : processes.all_to_all(root_boxes)) {
+        received.roots.insert(received.roots.end(), box.begin(), box.end());
+    }
+    root_boxes.clear();
+    for (const auto& box : processes.all_to_all(cut_boxes)) {
+        received.cuts.insert(received.cuts.end(), box.begin(), box.end());
+    }
     return received;
 }
 
@@ -275,17 +248,16 @@ void add_unrequested(const VertexShare& share, const Requests<>& requests, MeshP
 /// Collective. Fetches the vertices of this process's cells, and adds those of its share that no
 /// cell has. Returns the requests of all processes.
 Requests<> take_vertices(const Communicator& processes, const VertexShare& share,
-                         const CheckpointFacts& facts, const Roots& roots, MeshPart& part,
-                         LocalFailure& failure) {
-    failure.attempt([&] { part.vertex_numbers = vertices_of(roots); });
-    Requests requests = request(processes, share.owners, part.vertex_numbers, failure);
+                         const CheckpointFacts& facts, const Roots& roots, MeshPart& part) {
+    part.vertex_numbers = vertices_of(roots);
+    Requests requests = request(processes, share.owners, part.vertex_numbers);
     const auto fetch_owned = [&](const auto& owned, std::size_t components) {
-        return fetch(processes, requests, owned, share.begin, failure, components);
+        return fetch(processes, requests, owned, share.begin, components);
     };
     part.points = fetch_owned(share.points, 1);
     if (facts.has_point_markers) part.point_markers = fetch_owned(share.markers, 1);
     part.point_attributes = fetch_owned(share.attributes, part.attributes_per_point);
-    failure.attempt([&] { add_unrequested(share, requests, part); });
+    add_unrequested(share, requests, part);
     return requests;
 }
 
@@ -313,48 +285,43 @@ SharedFeatures share_of_features(const Communicator& processes, const Checkpoint
     return std::make_shared<const FeatureLists>(std::move(lists));
 }
 
-}  // namespace
-
-LoadedPart load_part(const Communicator& processes, const CheckpointReader& file,
-                     const std::filesystem::path& path, const Partition& partition) {
+/// Collective, within a transaction.
+LoadedPart load(const Communicator& processes, const CheckpointReader& file,
+                const std::filesystem::path& path, const Partition& partition) {
     const Phase phase(processes, "load");
-    LocalFailure failure;
-    std::optional<ShareOfFile> share;
-    std::optional<VertexShare> vertices;
-    failure.attempt([&] {
-        share.emplace(processes, file);
-        vertices.emplace(processes, file);
-    });
-    failure.agree(processes);
-    check_steps(processes, file, *share, failure);
+    std::optional<ShareOfFile> share(std::in_place, processes, file);
+    const VertexShare vertices(processes, file);
+    check_steps(processes, file, *share);
     const bool by_coordinates = partition.method == PartitionMethod::rcb || processes.size() == 1;
-    const auto parts = by_coordinates ? parts_by_coordinates(processes, *share, *vertices, failure)
+    const auto parts = by_coordinates ? parts_by_coordinates(processes, *share, vertices)
                                       : parts_of_whole(processes, *share, path, partition);
-    Roots roots = send(processes, share->roots, parts, failure);
+    Roots roots = send(processes, share->roots, parts);
     share.reset();
 
     const CheckpointFacts& facts = file.facts();
     LoadedPart part;
     part.input.index_base = facts.index_base;
     part.input.attributes_per_point = facts.attributes_per_point;
-    const Requests requests =
-        take_vertices(processes, *vertices, facts, roots, part.input, failure);
-    const auto facets =
-        load_tagged<3>(processes, file, vertices->owners, requests, roots.roots, Section::facets,
-                       Section::facet_markers, cell_faces, failure);
-    const auto edges = load_tagged<2>(processes, file, vertices->owners, requests, roots.roots,
-                                      Section::edges, Section::edge_markers, cell_edges, failure);
-    failure.attempt([&] {
-        take_tagged(facets, facts.has_facet_markers, part.input.facets, part.input.facet_markers,
-                    part.input.facet_numbers);
-        take_tagged(edges, facts.has_edge_markers, part.input.edges, part.input.edge_markers,
-                    part.input.edge_numbers);
-        take_roots(std::move(roots), facts, part);
-        part.input.group_names = facts.group_names;
-        part.features = share_of_features(processes, file);
-    });
-    failure.agree(processes);
+    const Requests requests = take_vertices(processes, vertices, facts, roots, part.input);
+    take_tagged(load_tagged<3>(processes, file, vertices.owners, requests, roots.roots,
+                               Section::facets, Section::facet_markers, cell_faces),
+                facts.has_facet_markers, part.input.facets, part.input.facet_markers,
+                part.input.facet_numbers);
+    take_tagged(load_tagged<2>(processes, file, vertices.owners, requests, roots.roots,
+                               Section::edges, Section::edge_markers, cell_edges),
+                facts.has_edge_markers, part.input.edges, part.input.edge_markers,
+                part.input.edge_numbers);
+    take_roots(std::move(roots), facts, part);
+    part.input.group_names = facts.group_names;
+    part.features = share_of_features(processes, file);
     return part;
+}
+
+}  // namespace
+
+LoadedPart load_part(const Communicator& processes, const CheckpointReader& file,
+                     const std::filesystem::path& path, const Partition& partition) {
+    return processes.transaction([&] { return load(processes, file, path, partition); });
 }
 
 }  // namespace octetra::distributed

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "comm/local_failure.hpp"
 #include "fields/requested_values.hpp"
 
 namespace octetra::distributed {
@@ -14,12 +13,9 @@ template <class T>
 std::vector<T> values_of(const Communicator& processes, const CheckpointReader& file,
                          std::size_t number, std::size_t components,
                          const RequestedValues& requested) {
-    LocalFailure failure;
-    std::vector<T> owned;
     const std::uint64_t begin = requested.owners.begin_of(processes.rank());
     const std::uint64_t end = requested.owners.end_of(processes.rank());
-    failure.attempt([&] { owned = file.read<T>(field_section(number), begin, end); });
-    failure.agree(processes);
+    const std::vector<T> owned = file.read<T>(field_section(number), begin, end);
     return fetch_values(processes, requested, owned, components);
 }
 

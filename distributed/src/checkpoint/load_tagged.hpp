@@ -11,7 +11,6 @@
 #include <octetra/core/checkpoint_blocks.hpp>
 #include <octetra/distributed/communicator.hpp>
 
-#include "comm/local_failure.hpp"
 #include "setup/owners.hpp"
 
 namespace octetra::distributed {
@@ -30,29 +29,23 @@ template <std::size_t N>
 [[nodiscard]] std::vector<Tagged<N>> send_to_owners(const Communicator& processes,
                                                     const CheckpointReader& file,
                                                     const OwnerMap& vertex_owners, Section section,
-                                                    Section markers, LocalFailure& failure) {
-    std::vector<std::vector<Tagged<N>>> to_owners;
-    failure.attempt([&] {
-        const OwnerMap owners =
-            owners_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
-        const std::uint64_t begin = owners.begin_of(processes.rank());
-        const std::uint64_t end = owners.end_of(processes.rank());
-        const auto lists = file.read_vertices<N>(section, begin, end);
-        const auto tags = file.read<Marker>(markers, begin, end);
-        to_owners.resize(static_cast<std::size_t>(processes.size()));
-        for (std::size_t i = 0; i < lists.size(); ++i) {
-            const auto owner = static_cast<std::size_t>(vertex_owners.rank_of(lists[i][0]));
-            to_owners[owner].push_back({begin + i, lists[i], tags.empty() ? Marker{0} : tags[i]});
-        }
-    });
-    failure.agree(processes);
+                                                    Section markers) {
+    const OwnerMap owners =
+        owners_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
+    const std::uint64_t begin = owners.begin_of(processes.rank());
+    const std::uint64_t end = owners.end_of(processes.rank());
+    const auto lists = file.read_vertices<N>(section, begin, end);
+    const auto tags = file.read<Marker>(markers, begin, end);
+    std::vector<std::vector<Tagged<N>>> to_owners(static_cast<std::size_t>(processes.size()));
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+        const auto owner = static_cast<std::size_t>(vertex_owners.rank_of(lists[i][0]));
+        to_owners[owner].push_back({begin + i, lists[i], tags.empty() ? Marker{0} : tags[i]});
+    }
     std::vector<Tagged<N>> owned;
-    failure.attempt([&] {
-        for (const auto& box : processes.all_to_all(to_owners)) {
-            owned.insert(owned.end(), box.begin(), box.end());
-        }
-        std::ranges::sort(owned, {}, [](const Tagged<N>& tagged) { return tagged.vertices[0]; });
-    });
+    for (const auto& box : processes.all_to_all(to_owners)) {
+        owned.insert(owned.end(), box.begin(), box.end());
+    }
+    std::ranges::sort(owned, {}, [](const Tagged<N>& tagged) { return tagged.vertices[0]; });
     return owned;
 }
 
@@ -60,28 +53,21 @@ template <std::size_t N>
 template <std::size_t N>
 [[nodiscard]] std::vector<Tagged<N>> send_to_parts(const Communicator& processes,
                                                    const Requests<>& requests,
-                                                   const std::vector<Tagged<N>>& owned,
-                                                   LocalFailure& failure) {
-    std::vector<std::vector<Tagged<N>>> to_parts;
-    failure.attempt([&] {
-        to_parts.resize(static_cast<std::size_t>(processes.size()));
-        for (std::size_t rank = 0; rank < to_parts.size(); ++rank) {
-            auto next = owned.begin();
-            for (const std::uint64_t number : requests.received[rank]) {  // ascending
-                while (next != owned.end() && next->vertices[0] < number) ++next;
-                for (auto k = next; k != owned.end() && k->vertices[0] == number; ++k) {
-                    to_parts[rank].push_back(*k);
-                }
+                                                   const std::vector<Tagged<N>>& owned) {
+    std::vector<std::vector<Tagged<N>>> to_parts(static_cast<std::size_t>(processes.size()));
+    for (std::size_t rank = 0; rank < to_parts.size(); ++rank) {
+        auto next = owned.begin();
+        for (const std::uint64_t number : requests.received[rank]) {  // ascending
+            while (next != owned.end() && next->vertices[0] < number) ++next;
+            for (auto k = next; k != owned.end() && k->vertices[0] == number; ++k) {
+                to_parts[rank].push_back(*k);
             }
         }
-    });
-    failure.agree(processes);
+    }
     std::vector<Tagged<N>> received;
-    failure.attempt([&] {
-        for (const auto& box : processes.all_to_all(to_parts)) {
-            received.insert(received.end(), box.begin(), box.end());
-        }
-    });
+    for (const auto& box : processes.all_to_all(to_parts)) {
+        received.insert(received.end(), box.begin(), box.end());
+    }
     return received;
 }
 
@@ -121,55 +107,40 @@ template <std::size_t N, std::size_t Sides>
     return tagged;
 }
 
-/// Collective. Throws on all processes if a facet or edge of the file is a side of no cell. The
-/// processes that have a cell at an entity report this to the process that has read it.
+/// Collective. Throws if a facet or edge of the file is a side of no cell. The processes that have
+/// a cell at an entity report this to the process that has read it.
 template <std::size_t N>
 void check_all_are_sides(const Communicator& processes, const CheckpointReader& file,
-                         Section section, const std::vector<Tagged<N>>& tagged,
-                         LocalFailure& failure) {
-    OwnerMap owners;
-    std::vector<std::vector<std::uint64_t>> outboxes;
-    failure.attempt([&] {
-        owners =
-            owners_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
-        outboxes.resize(static_cast<std::size_t>(processes.size()));
-        for (const Tagged<N>& one : tagged) {
-            outboxes[static_cast<std::size_t>(owners.rank_of(one.number))].push_back(one.number);
-        }
-    });
-    failure.agree(processes);
-    std::vector<std::vector<std::uint64_t>> inboxes;
-    failure.attempt([&] { inboxes = processes.all_to_all(outboxes); });
-    failure.agree(processes);  // otherwise numbers of a failed process would seem to be missing
-    failure.attempt([&] {
-        const std::uint64_t begin = owners.begin_of(processes.rank());
-        std::vector<bool> is_side(owners.end_of(processes.rank()) - begin, false);
-        for (const auto& inbox : inboxes) {
-            for (const std::uint64_t number : inbox) is_side[number - begin] = true;
-        }
-        const auto stray = std::ranges::find(is_side, false);
-        if (stray == is_side.end()) return;
-        const std::uint64_t number = begin + static_cast<std::uint64_t>(stray - is_side.begin());
-        file.fail(section, number / block_length,
-                  fmt::format("number {} belongs to no cell", number));
-    });
-    failure.agree(processes);
+                         Section section, const std::vector<Tagged<N>>& tagged) {
+    const OwnerMap owners =
+        owners_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
+    std::vector<std::vector<std::uint64_t>> outboxes(static_cast<std::size_t>(processes.size()));
+    for (const Tagged<N>& one : tagged) {
+        outboxes[static_cast<std::size_t>(owners.rank_of(one.number))].push_back(one.number);
+    }
+    const auto inboxes = processes.all_to_all(outboxes);
+    const std::uint64_t begin = owners.begin_of(processes.rank());
+    std::vector<bool> is_side(owners.end_of(processes.rank()) - begin, false);
+    for (const auto& inbox : inboxes) {
+        for (const std::uint64_t number : inbox) is_side[number - begin] = true;
+    }
+    const auto stray = std::ranges::find(is_side, false);
+    if (stray == is_side.end()) return;
+    const std::uint64_t number = begin + static_cast<std::uint64_t>(stray - is_side.begin());
+    file.fail(section, number / block_length, fmt::format("number {} belongs to no cell", number));
 }
 
-/// Collective. Returns the facets or edges that are sides of this process's cells. Each is sent
-/// from its reader to the owner of its first vertex, and from there to all processes that have
-/// requested that vertex.
+/// Collective, within a transaction. Returns the facets or edges that are sides of this process's
+/// cells. Each is sent from its reader to the owner of its first vertex, and from there to all
+/// processes that have requested that vertex.
 template <std::size_t N, std::size_t Sides>
 [[nodiscard]] std::vector<Tagged<N>> load_tagged(
     const Communicator& processes, const CheckpointReader& file, const OwnerMap& vertex_owners,
     const Requests<>& requests, const auto& cells, Section section, Section markers,
-    const std::array<std::array<std::uint8_t, N>, Sides>& sides, LocalFailure& failure) {
-    const auto owned = send_to_owners<N>(processes, file, vertex_owners, section, markers, failure);
-    const auto received = send_to_parts(processes, requests, owned, failure);
-    std::vector<Tagged<N>> tagged;
-    failure.attempt([&] { tagged = sides_among(received, cells, sides); });
-    failure.agree(processes);
-    check_all_are_sides(processes, file, section, tagged, failure);
+    const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
+    const auto owned = send_to_owners<N>(processes, file, vertex_owners, section, markers);
+    auto tagged = sides_among(send_to_parts(processes, requests, owned), cells, sides);
+    check_all_are_sides(processes, file, section, tagged);
     return tagged;
 }
 

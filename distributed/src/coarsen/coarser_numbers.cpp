@@ -112,7 +112,6 @@ CoarserNumbers coarser_numbers(const Communicator& processes, const CanonicalNum
     after.vertex_count = numbers.vertex_count - processes.sum(removed.size());
     const auto answers =
         processes.all_to_all(answers_to(received_requests, removed, removed_before));
-    processes.agree_on_success();  // a process without memory has sent no answers
     after.from_first = renumbered_after_removal(requests, answers);
     return after;
 }

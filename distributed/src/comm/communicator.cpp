@@ -48,7 +48,7 @@ void Communicator::max(std::span<std::uint64_t> numbers) const {
 }
 
 std::uint64_t Communicator::max(std::uint64_t number) const {
-    if (is_in_transaction()) return agreed_max(number);
+    if (is_in_transaction()) return agreed_max({number, 0})[0];
     return mpi_ ? reduced(number, MPI_MAX, mpi_->comm, profile()) : number;
 }
 

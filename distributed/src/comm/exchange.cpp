@@ -31,8 +31,8 @@ void receive_all(const Communicator::Mpi& group, int sender, auto&& allocate) {
 
 void Communicator::send_and_receive_bytes(std::span<const int> receivers,
                                           std::span<const std::span<const std::byte>> outboxes,
-                                          std::span<const int> senders, Allocate allocate,
-                                          void* context) const {
+                                          std::span<const int> senders, Agreement agreement,
+                                          Allocate allocate, void* context) const {
     std::vector<MPI_Request> requests;
     std::vector<std::uint64_t> sizes;
     try {
@@ -41,9 +41,12 @@ void Communicator::send_and_receive_bytes(std::span<const int> receivers,
         requests.resize(count);
         for (const auto& outbox : outboxes) sizes.push_back(outbox.size());
     } catch (...) {
-        exchange_empty_messages(receivers, senders);
+        if (agreement == Agreement::no || !is_in_transaction()) {
+            exchange_empty_messages(receivers, senders);
+        }
         throw;
     }
+    if (agreement == Agreement::yes) agree_on_success();
     const Communication communication(mpi_ ? profile() : nullptr, "exchange");
     Sending sending(mpi_ ? mpi_->comm : MPI_COMM_NULL, communication, requests);
     std::span<const std::byte> to_itself;

@@ -109,9 +109,11 @@ void Communicator::exchange_sparsely(std::span<const std::span<const std::byte>>
         requests.resize(count);
         for (const auto& outbox : outboxes) sizes.push_back(outbox.size());
     } catch (...) {
+        if (is_in_transaction()) throw;
         failure = std::current_exception();
         outboxes = {};
     }
+    agree_on_success();
     const Communication communication(profile(), "exchange");
     SparseExchange exchange(*mpi_, communication);
     Sending sending(mpi_->comm, communication, requests);

@@ -14,7 +14,6 @@
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/out_of_memory.hpp>
 
-#include "comm/local_failure.hpp"
 #include "comm/mpi_group.hpp"
 #include "comm/reduce.hpp"
 
@@ -23,6 +22,10 @@
 /// reports its failure. The others then leave the transaction by OthersFailed.
 namespace octetra::distributed {
 namespace {
+
+/// Ends the work of a transaction on a process that has not failed itself. Not derived from
+/// std::exception, so that only the transaction catches it.
+struct OthersFailed {};
 
 enum class Kind : std::uint8_t { out_of_memory, bad_input, system_failed };
 
@@ -70,30 +73,31 @@ Description description_of(const std::exception_ptr& failure, int rank) {
     throw OutOfMemory(description.rank);
 }
 
-/// Collective. The greatest number; notes the lowest rank that has failed, if one has. The profile
-/// is null where there may be no memory for measuring.
-std::uint64_t agree_in(const Communicator::Mpi& group, std::uint64_t number, bool has_failed,
-                       Profile* profile) {
+/// Collective. Returns the maxima of two numbers of each process, and notes the lowest rank that
+/// has failed, if one has.
+std::array<std::uint64_t, 2> agree_in(const Communicator::Mpi& group,
+                                      const std::array<std::uint64_t, 2>& numbers, bool has_failed,
+                                      Profile* profile) {
     const auto size = static_cast<std::uint64_t>(group.size);
     const auto rank = static_cast<std::uint64_t>(group.rank);
-    std::array<std::uint64_t, 2> greatest{number, has_failed ? size - rank : 0};
-    reduce(greatest, MPI_MAX, group.comm, profile);
-    if (greatest[1] != 0) group.failed_rank = static_cast<int>(size - greatest[1]);
-    return greatest[0];
+    std::array<std::uint64_t, 3> maxima{numbers[0], numbers[1], has_failed ? size - rank : 0};
+    reduce(maxima, MPI_MAX, group.comm, profile);
+    if (maxima[2] != 0) group.failed_rank = static_cast<int>(size - maxima[2]);
+    return {maxima[0], maxima[1]};
 }
 
 }  // namespace
 
 bool Communicator::is_in_transaction() const { return mpi_ && mpi_->is_in_transaction; }
 
-std::uint64_t Communicator::agreed_max(std::uint64_t number) const {
-    if (!mpi_->failed_rank) number = agree_in(*mpi_, number, false, profile());
+std::array<std::uint64_t, 2> Communicator::agreed_max(std::array<std::uint64_t, 2> numbers) const {
+    if (!mpi_->failed_rank) numbers = agree_in(*mpi_, numbers, false, profile());
     if (mpi_->failed_rank) throw OthersFailed();
-    return number;
+    return numbers;
 }
 
 void Communicator::agree_on_success() const {
-    if (is_in_transaction()) (void)agreed_max(0);
+    if (is_in_transaction()) (void)agreed_max({0, 0});
 }
 
 void Communicator::run_transaction(const std::function<void()>& work) const {
@@ -102,6 +106,7 @@ void Communicator::run_transaction(const std::function<void()>& work) const {
     if (mpi_) mpi_->is_in_transaction = true;
     try {
         work();
+        agree_on_success();
     } catch (const OthersFailed&) {
     } catch (...) {
         failure = std::current_exception();
@@ -110,7 +115,8 @@ void Communicator::run_transaction(const std::function<void()>& work) const {
         if (failure) throw_failure(*this, 0, failure);
         return;
     }
-    if (!mpi_->failed_rank) (void)agree_in(*mpi_, 0, failure != nullptr, nullptr);
+    // Without a profile, because there may be no memory for measuring.
+    if (failure && !mpi_->failed_rank) (void)agree_in(*mpi_, {0, 0}, true, nullptr);
     mpi_->is_in_transaction = false;
     const std::optional<int> failed_rank = std::exchange(mpi_->failed_rank, std::nullopt);
     if (failed_rank) throw_failure(*this, *failed_rank, failure);

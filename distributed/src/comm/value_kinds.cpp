@@ -12,8 +12,6 @@
 
 #include <octetra/core/error.hpp>
 
-#include "comm/same_arguments.hpp"
-
 namespace octetra::distributed {
 namespace {
 
@@ -34,27 +32,18 @@ std::string text_of(const detail::ValueKind& kind) {
 
 }  // namespace
 
-void agree_on_kind(const Communicator& processes, LocalFailure& failure,
-                   const detail::ValueKind& kind) {
-    agree_on_same(processes, failure, "kind of the values", [&] { return text_of(kind); });
+void agree_on_kind(const Communicator& processes, const detail::ValueKind& kind) {
+    processes.check_same("kind of the values", text_of(kind));
 }
 
-void agree_on_sizes(const Communicator& processes, LocalFailure& failure,
-                    std::span<const int> senders,
+void agree_on_sizes(const Communicator& processes, std::span<const int> senders,
                     const std::vector<std::vector<std::byte>>& messages,
                     const std::function<std::size_t(std::size_t n)>& expected) {
-    bool fit = true;
-    for (std::size_t n = 0; n < messages.size(); ++n) fit &= messages[n].size() == expected(n);
-    const std::uint64_t worst = failure.max_unless_failed(processes, fit ? 0 : 1);
-    if (worst == 0) return;
-    if (worst != LocalFailure::somewhere) {
-        failure.attempt([&] {
-            for (std::size_t n = 0; n < messages.size(); ++n) {
-                check_message_size(processes, senders[n], messages[n].size(), expected(n));
-            }
-        });
+    processes.agree_on_success();
+    for (std::size_t n = 0; n < messages.size(); ++n) {
+        check_message_size(processes, senders[n], messages[n].size(), expected(n));
     }
-    failure.agree(processes);
+    processes.agree_on_success();
 }
 
 void check_message_size(const Communicator& processes, int sender, std::size_t size,

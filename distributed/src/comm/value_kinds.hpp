@@ -8,20 +8,15 @@
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/value_kind.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 
-/// Collective. Throws on all processes if one has failed. Throws InputError, with the same message
-/// on all, unless all pass values of the same kind. Takes one reduction if nothing is wrong.
-void agree_on_kind(const Communicator& processes, LocalFailure& failure,
-                   const detail::ValueKind& kind);
+/// Collective, within a transaction. Throws InputError unless all processes pass values of the same
+/// kind.
+void agree_on_kind(const Communicator& processes, const detail::ValueKind& kind);
 
-/// Collective. Checks the sizes of messages received from `senders`. Throws on all processes if one
-/// has failed (a process without memory has sent nothing), else InputError if a message does not
-/// have the expected size.
-void agree_on_sizes(const Communicator& processes, LocalFailure& failure,
-                    std::span<const int> senders,
+/// Collective, within a transaction. Throws InputError if a message received from `senders` does
+/// not have the expected size.
+void agree_on_sizes(const Communicator& processes, std::span<const int> senders,
                     const std::vector<std::vector<std::byte>>& messages,
                     const std::function<std::size_t(std::size_t n)>& expected);
 

@@ -1,7 +1,6 @@
 #include "fields/read_fields.hpp"
 
 #include <cstring>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -43,14 +42,12 @@ void broadcast_headers(const Communicator& processes, std::vector<FieldRows>& li
 SolFields read_lists(const Communicator& processes, const std::filesystem::path& path,
                      const EntityCounts& counts) {
     if (processes.size() > 1) {
-        LocalFailure failure;
-        std::optional<SolFields> from_shares;
-        failure.attempt([&] { from_shares = read_sol_share(path, counts, processes); });
-        failure.agree(processes);
-        if (from_shares) return *std::move(from_shares);
+        if (auto from_shares = read_sol_share(path, counts, processes)) {
+            return *std::move(from_shares);
+        }
     }
     SolFields alone;
-    processes.on_first([&] { alone = read_sol(path, counts); });
+    if (processes.is_first()) alone = read_sol(path, counts);
     broadcast_headers(processes, alone.lists);
     return alone;
 }
@@ -76,37 +73,37 @@ std::vector<Field> read_fields(const DistributedMesh& mesh, std::span<const Cell
                                const CanonicalNumbers& numbers, const std::filesystem::path& path,
                                const std::function<void(const std::string&)>& note) {
     const Communicator& processes = mesh.processes;
-    if (!is_sol(path)) {
-        throw InputError(fmt::format("{}: files of values end in .sol or .solb", path.native()));
-    }
-    const CanonicalRuns runs = canonical_runs(processes, mesh.cell_ancestors);
-    const SolFields read = read_lists(processes, path, {numbers.vertex_count, runs.count});
-    std::vector<Field> fields;
-    for (const FieldRows& list : read.lists) {
-        LocalFailure failure;
-        OwnerMap owners = owners_of_shares(processes, list.first, list.count, failure);
-        const RequestedValues requested = send_requests(
-            processes,
-            list.on == FieldOn::vertices ? requested_vertices(numbers)
-                                         : requested_cells(runs, mesh.cell_ancestors, cells_before),
-            std::move(owners));
-        const auto rows = fetch_values(processes, requested, list.values, list.width());
-        std::size_t first_component = 0;
-        failure.attempt([&] {
+    return processes.transaction([&] {
+        if (!is_sol(path)) {
+            throw InputError(
+                fmt::format("{}: files of values end in .sol or .solb", path.native()));
+        }
+        const CanonicalRuns runs = canonical_runs(processes, mesh.cell_ancestors);
+        const SolFields read = read_lists(processes, path, {numbers.vertex_count, runs.count});
+        std::vector<Field> fields;
+        for (const FieldRows& list : read.lists) {
+            OwnerMap owners = owners_of_shares(processes, list.first, list.count);
+            const RequestedValues requested =
+                send_requests(processes,
+                              list.on == FieldOn::vertices
+                                  ? requested_vertices(numbers)
+                                  : requested_cells(runs, mesh.cell_ancestors, cells_before),
+                              std::move(owners));
+            const auto rows = fetch_values(processes, requested, list.values, list.width());
+            std::size_t first_component = 0;
             for (std::size_t f = 0; f < list.components.size(); ++f) {
                 fields.push_back(field_of_rows(list, rows, f, first_component));
                 first_component += list.components[f];
             }
-        });
-        failure.agree(processes);
-    }
-    if (processes.is_first()) {
-        for (const std::string& what : read.notes) note(what);
-        if (fields.empty()) {
-            note(fmt::format("{}: there are no fields of vertices or cells", path.native()));
         }
-    }
-    return fields;
+        if (processes.is_first()) {
+            for (const std::string& what : read.notes) note(what);
+            if (fields.empty()) {
+                note(fmt::format("{}: there are no fields of vertices or cells", path.native()));
+            }
+        }
+        return fields;
+    });
 }
 
 }  // namespace octetra::distributed

@@ -27,9 +27,8 @@ RequestedEntities requested_cells(const CanonicalRuns& runs, const AncestorMap& 
 
 RequestedValues send_requests(const Communicator& processes, RequestedEntities entities,
                               OwnerMap owners) {
-    LocalFailure failure;
     RequestedValues requested{std::move(entities), std::move(owners), {}};
-    requested.requests = request(processes, requested.owners, requested.entities.numbers, failure);
+    requested.requests = request(processes, requested.owners, requested.entities.numbers);
     return requested;
 }
 

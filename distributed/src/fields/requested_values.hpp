@@ -42,9 +42,8 @@ template <class T>
 [[nodiscard]] std::vector<T> fetch_values(const Communicator& processes,
                                           const RequestedValues& requested,
                                           const std::vector<T>& owned, std::size_t components) {
-    LocalFailure failure;
     const auto received = fetch(processes, requested.requests, owned,
-                                requested.owners.begin_of(processes.rank()), failure, components);
+                                requested.owners.begin_of(processes.rank()), components);
     std::vector<T> values(received.size());
     for (std::size_t i = 0; i < requested.entities.local.size(); ++i) {
         for (std::size_t k = 0; k < components; ++k) {

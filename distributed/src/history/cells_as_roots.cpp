@@ -84,10 +84,10 @@ SharedFeatures features_now(const DistributedMesh& mesh, FeatureSlices slices) {
 
 void CellsAsRoots::begin(DistributedMesh& mesh, const CanonicalNumbers* known) {
     const Communicator& processes = mesh.processes;
-    CanonicalNumbers own_numbers;
-    if (known == nullptr) own_numbers = canonical_numbers(mesh);
-    const CanonicalNumbers& numbers = known == nullptr ? own_numbers : *known;
     processes.transaction([&] {
+        CanonicalNumbers own_numbers;
+        if (known == nullptr) own_numbers = canonical_numbers(mesh);
+        const CanonicalNumbers& numbers = known == nullptr ? own_numbers : *known;
         const CanonicalRuns cells = canonical_runs(processes, mesh.cell_ancestors);
         const CanonicalRuns facets = canonical_runs(processes, mesh.facet_ancestors);
         const CanonicalRuns edges = canonical_runs(processes, mesh.edge_ancestors);

@@ -1,5 +1,4 @@
 #include "history/recall_history.hpp"
-#include "comm/local_failure.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -60,8 +59,7 @@ AncestorMap composed(const AncestorMap& before, const AncestorMap& since) {
 
 std::vector<int> ranks_of_roots(const Communicator& processes, const AncestorMap& before,
                                 const std::vector<std::uint64_t>& roots) {
-    std::vector<int> ranks;
-    processes.transaction([&] {
+    return processes.transaction([&] {
         const CanonicalRuns runs = canonical_runs(processes, before);
         const OwnerMap owners = owners_of_blocks(runs.count, 1, processes.size());
         const std::uint64_t first = owners.begin_of(processes.rank());
@@ -74,11 +72,8 @@ std::vector<int> ranks_of_roots(const Communicator& processes, const AncestorMap
                           rank_of.data() + (range.end - first), static_cast<int>(rank));
             }
         }
-        LocalFailure failure;
-        const auto requests = request(processes, owners, roots, failure);
-        ranks = fetch(processes, requests, rank_of, first, failure);
+        return fetch(processes, request(processes, owners, roots), rank_of, first);
     });
-    return ranks;
 }
 
 History joined(const History& before, const DistributedMesh& mesh) {

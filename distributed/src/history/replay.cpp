@@ -1,9 +1,6 @@
 #include "history/replay.hpp"
 
-#include <optional>
 #include <utility>
-
-#include "comm/local_failure.hpp"
 
 namespace octetra::distributed {
 
@@ -15,12 +12,9 @@ PlannedLevel plan_step(DistributedMesh& mesh, CutMarks& history, const Tuning& t
 }
 
 void replay(DistributedMesh& mesh, CutRoots history, std::size_t step_count, const Tuning& tuning) {
-    LocalFailure failure;
-    std::optional<CutMarks> marks;
-    failure.attempt([&] { marks.emplace(std::move(history)); });
-    failure.agree(mesh.processes);
+    CutMarks marks(std::move(history));
     for (std::size_t t = 0; t < step_count; ++t) {
-        plan_step(mesh, *marks, tuning, static_cast<int>(t) + 1).commit();
+        plan_step(mesh, marks, tuning, static_cast<int>(t) + 1).commit();
     }
 }
 

@@ -1,5 +1,4 @@
 #include "history/tagged_to_history.hpp"
-#include "comm/local_failure.hpp"
 
 #include <algorithm>
 #include <array>
@@ -55,7 +54,7 @@ public:
           has_vertex_markers_(!mesh.input_vertex_markers.empty() ||
                               !mesh.midpoint_markers.empty()) {}
 
-    /// Collective. A process that fails throws without the others.
+    /// Collective, within a transaction.
     void move(const std::vector<int>& rank_of_root) {
         const Communicator& processes = mesh_->processes;
         const auto stays = [&](int rank) { return rank == processes.rank(); };
@@ -69,7 +68,6 @@ public:
         }
         const auto received_roots = processes.all_to_all(roots);
         Vertices received_vertices = processes.all_to_all(vertices);
-        LocalFailure().agree(processes);  // otherwise messages may be missing
         merge(rank_of_root, in_order(received_roots, std::move(received_vertices)));
     }
 

@@ -7,7 +7,6 @@
 
 #include <octetra/core/error.hpp>
 
-#include "comm/local_failure.hpp"
 #include "comm/value_kinds.hpp"
 #include "migrate/exchange_entities.hpp"
 
@@ -54,8 +53,7 @@ void Migration::check_values(const Entities& entities, std::size_t count,
     if (!has_counts_) return;
     processes_.transaction([&] {
         check(processes_, count, entities.count_before * kind.components);
-        LocalFailure none;
-        agree_on_kind(processes_, none, kind);
+        agree_on_kind(processes_, kind);
     });
 }
 
@@ -64,8 +62,7 @@ void Migration::check_lists(const Entities& entities, std::span<const std::uint6
     if (!has_counts_) return;
     processes_.transaction([&] {
         check(processes_, begin, count, entities.count_before);
-        LocalFailure none;
-        agree_on_kind(processes_, none, kind);
+        agree_on_kind(processes_, kind);
     });
 }
 
@@ -93,8 +90,7 @@ void Migration::move_values(const Entities& entities, std::span<const std::byte>
     };
     processes_.transaction([&] {
         check(processes_, values.size() / kind.size, entities.count_before * kind.components);
-        LocalFailure none;
-        agree_on_kind(processes_, none, kind);
+        agree_on_kind(processes_, kind);
         exchange_entities(processes_, partners_, entities, pack, take);
     });
 }
@@ -157,8 +153,7 @@ void Migration::move_lists(const Entities& entities, std::span<const std::uint64
     };
     processes_.transaction([&] {
         check(processes_, begin, values.size() / size, entities.count_before);
-        LocalFailure none;
-        agree_on_kind(processes_, none, kind);
+        agree_on_kind(processes_, kind);
         exchange_entities(processes_, partners_, entities, pack, take);
     });
 }

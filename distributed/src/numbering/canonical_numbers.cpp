@@ -29,26 +29,20 @@ std::vector<VertexIndex> shared_vertices_of(const DistributedMesh& mesh,
 
 }  // namespace
 
-bool CanonicalNumbers::number_midpoints(const DistributedMesh& mesh, VertexIndex end,
-                                        std::span<const VertexIndex> shared_vertices,
-                                        LocalFailure& failure) {
+void CanonicalNumbers::number_midpoints(const DistributedMesh& mesh, VertexIndex end,
+                                        std::span<const VertexIndex> shared_vertices) {
     const VertexIndex begin = of_vertex.end_index();
     if (mesh.processes.size() == 1) {  // vertices are in canonical order
-        failure.attempt([&] {
-            make_room(of_vertex, end.value());
-            for (VertexIndex v = begin; v < end; ++v) of_vertex.push_back(GlobalVertex{v.value()});
-            vertex_count = of_vertex.size();
-        });
-        return true;
+        make_room(of_vertex, end.value());
+        for (VertexIndex v = begin; v < end; ++v) of_vertex.push_back(GlobalVertex{v.value()});
+        vertex_count = of_vertex.size();
+        return;
     }
-    std::span<const EdgeVertices> ends;
-    if (!failure.found()) {
-        ends =
-            std::span(mesh.midpoint_to_edge)
-                .subspan(begin.value() - mesh.input_vertices.size(), end.value() - begin.value());
-    }
-    return append_ranked<2>(of_vertex, mesh.processes, ends, of_vertex, shared_vertices,
-                            vertex_count, vertex_count, failure);
+    const auto ends =
+        std::span(mesh.midpoint_to_edge)
+            .subspan(begin.value() - mesh.input_vertices.size(), end.value() - begin.value());
+    append_ranked<2>(of_vertex, mesh.processes, ends, of_vertex, shared_vertices, vertex_count,
+                     vertex_count);
 }
 
 void CanonicalNumbers::forget_from(VertexIndex end, std::uint64_t count) noexcept {
@@ -64,23 +58,20 @@ CanonicalNumbers input_numbers(const DistributedMesh& mesh) {
 }
 
 CanonicalNumbers canonical_numbers(const DistributedMesh& mesh) {
-    LocalFailure failure;
-    CanonicalNumbers numbers;
-    std::vector<VertexIndex> shared;
-    const Sharing<VertexIndex> input_sharing = find_vertex_sharing(mesh);
-    failure.attempt([&] {
-        if (mesh.processes.size() > 1) shared = shared_vertices_of(mesh, input_sharing);
-        numbers = input_numbers(mesh);
+    return mesh.processes.transaction([&] {
+        std::vector<VertexIndex> shared;
+        if (mesh.processes.size() > 1) shared = shared_vertices_of(mesh, find_vertex_sharing(mesh));
+        CanonicalNumbers numbers = input_numbers(mesh);
         numbers.of_vertex.reserve(mesh.points.size());
+        // All processes have the same number of levels.
+        for (std::size_t level = 0; level < mesh.level_begin.size(); ++level) {
+            const VertexIndex end = level + 1 < mesh.level_begin.size()
+                                        ? mesh.level_begin[level + 1]
+                                        : mesh.points.end_index();
+            numbers.number_midpoints(mesh, end, shared);
+        }
+        return numbers;
     });
-    // All processes have the same number of levels.
-    for (std::size_t level = 0; level < mesh.level_begin.size(); ++level) {
-        const VertexIndex end = level + 1 < mesh.level_begin.size() ? mesh.level_begin[level + 1]
-                                                                    : mesh.points.end_index();
-        if (!numbers.number_midpoints(mesh, end, shared, failure)) break;
-    }
-    failure.agree(mesh.processes);
-    return numbers;
 }
 
 }  // namespace octetra::distributed

@@ -4,8 +4,6 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 
 /// The canonical (global) numbers of a process's vertices.
@@ -16,12 +14,10 @@ struct CanonicalNumbers {
     /// Collective. Numbers the midpoints of one more level: this process's vertices from the first
     /// without a number to before `end`. They are ordered by the numbers of their ends; see
     /// append_ranked(). `shared_vertices` are the numbered vertices that other processes have, too,
-    /// ascending. If a process fails, the new numbers must not be used on any process, but removed
-    /// by forget_from(). Returns false on all processes if the failure is known to all; no further
-    /// level may then be numbered.
-    [[nodiscard]] bool number_midpoints(const DistributedMesh& mesh, VertexIndex end,
-                                        std::span<const VertexIndex> shared_vertices,
-                                        LocalFailure& failure);
+    /// ascending. To be called within a transaction; if that fails, the new numbers must be removed
+    /// by forget_from().
+    void number_midpoints(const DistributedMesh& mesh, VertexIndex end,
+                          std::span<const VertexIndex> shared_vertices);
 
     /// Removes the numbers from `end` on and resets vertex_count to `count`.
     void forget_from(VertexIndex end, std::uint64_t count) noexcept;

@@ -8,9 +8,8 @@
 namespace octetra::distributed {
 
 std::vector<std::uint64_t> cell_numbers(const DistributedMesh& mesh) {
-    std::vector<std::uint64_t> numbers;
-    mesh.processes.transaction([&] {
-        numbers.resize(mesh.cells.size());
+    return mesh.processes.transaction([&] {
+        std::vector<std::uint64_t> numbers(mesh.cells.size());
         const OrderedList<IndexVector<CellIndex, CellVertices>> cells(
             mesh.cells, mesh.cell_ancestors, mesh.adjacency ? &mesh.adjacency->cells : nullptr);
         const CanonicalRuns runs = canonical_runs(mesh.processes, cells.ancestors());
@@ -20,8 +19,8 @@ std::vector<std::uint64_t> cell_numbers(const DistributedMesh& mesh) {
                              const auto before = cells.before();
                              numbers[before.empty() ? position : before[position].value()] = number;
                          });
+        return numbers;
     });
-    return numbers;
 }
 
 }  // namespace octetra::distributed

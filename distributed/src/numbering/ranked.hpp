@@ -15,7 +15,6 @@
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "comm/local_failure.hpp"
 #include "numbering/compressed_words.hpp"
 
 namespace octetra::distributed {
@@ -169,15 +168,13 @@ private:
 };
 
 /// Appends the position of each of `count` tuples to `list`, from the answers to this process's
-/// questions. The answer of a failed process is empty; the appended values must not be used then.
+/// questions.
 template <std::size_t N>
 void append_positions(auto& list, std::size_t count, const std::vector<Question>& questions,
                       const std::vector<std::vector<std::uint64_t>>& answers) {
     using Position = typename std::remove_cvref_t<decltype(list)>::value_type;
-    const std::size_t end = list.size() + count;
-    make_room(list, end);
+    make_room(list, list.size() + count);
     for (std::size_t r = 0; r < questions.size(); ++r) {
-        if (answers[r].empty()) continue;
         auto answer = answers[r].begin();
         for (QuestionReader<N> reader(questions[r]); !reader.at_end(); reader.next()) {
             if (reader.is_shared()) {
@@ -190,60 +187,37 @@ void append_positions(auto& list, std::size_t count, const std::vector<Question>
             }
         }
     }
-    list.resize(end);
 }
 
-/// Collective. Appends to `list` the positions of tuples in the ascending order of all distinct
-/// tuples of all processes, counted from `total`, and adds their number to `total`. This process's
-/// `tuples` ascend; their vertices have global numbers less than `end_count`. `shared_vertices` are
-/// those that other processes have, too, ascending. Returns false on all processes if one is known
-/// to have failed; a failure in the last step is reported only by the next agreement. `list` may be
-/// `numbers`, since they are read before `list` is extended.
+/// Collective, within a transaction. Appends to `list` the positions of tuples in the ascending
+/// order of all distinct tuples of all processes, counted from `total`, and adds their number to
+/// `total`. This process's `tuples` ascend; their vertices have global numbers less than
+/// `end_count`. `shared_vertices` are those that other processes have, too, ascending. `list` may
+/// be `numbers`, since they are read before `list` is extended; after a failure it may be extended
+/// in part.
 ///
 /// Tuples are compared at a rendezvous process that is determined by their lowest vertex. Memory
 /// and messages are proportional to the number of lowest vertices plus the number of tuples of
 /// shared ones.
 template <std::size_t N>
-[[nodiscard]] bool append_ranked(auto& list, const Communicator& processes,
-                                 std::span<const VertexTuple<N>> tuples,
-                                 const IndexVector<VertexIndex, GlobalVertex>& numbers,
-                                 std::span<const VertexIndex> shared_vertices,
-                                 std::uint64_t end_count, std::uint64_t& total,
-                                 LocalFailure& failure) {
-    const auto somewhere_failed = [&] {
-        return failure.max_unless_failed(processes, 0) == LocalFailure::somewhere;
-    };
+void append_ranked(auto& list, const Communicator& processes,
+                   std::span<const VertexTuple<N>> tuples,
+                   const IndexVector<VertexIndex, GlobalVertex>& numbers,
+                   std::span<const VertexIndex> shared_vertices, std::uint64_t end_count,
+                   std::uint64_t& total) {
     const std::uint64_t block = end_count / static_cast<std::uint64_t>(processes.size()) + 1;
-    std::vector<Question> questions;
-    // allocated before the exchange, because a process that cannot send would leave others waiting
-    std::vector<CompressedWords> sent;
-    failure.attempt([&] {
-        questions = questions_about<N>(tuples, numbers, shared_vertices, block, processes.size());
-        sent = of_each(questions, compressed);
-    });
-    if (somewhere_failed()) return false;
-
-    std::vector<std::vector<std::uint64_t>> answers;
-    std::uint64_t count = 0;
-    failure.attempt([&] {
-        const auto received = processes.all_to_all(sent);
-        const std::vector<Question> asked = of_each(received, decompressed);
-        Answers<N> found(asked);
-        count = found.count();
-        answers = std::move(found).take();
-    });
-    const std::uint64_t first = total + processes.sum_before(count);
-    total += processes.sum(count);
+    const std::vector<Question> questions =
+        questions_about<N>(tuples, numbers, shared_vertices, block, processes.size());
+    const auto asked = of_each(processes.all_to_all(of_each(questions, compressed)), decompressed);
+    Answers<N> found(asked);
+    const std::uint64_t first = total + processes.sum_before(found.count());
+    total += processes.sum(found.count());
+    std::vector<std::vector<std::uint64_t>> answers = std::move(found).take();
     for (auto& positions : answers) {
         for (std::uint64_t& position : positions) position += first;
     }
-    failure.attempt([&] { sent = of_each(answers, compressed); });
-    if (somewhere_failed()) return false;
-    failure.attempt([&] {
-        const auto received = processes.all_to_all(sent);
-        append_positions<N>(list, tuples.size(), questions, of_each(received, decompressed));
-    });
-    return true;
+    const auto received = processes.all_to_all(of_each(answers, compressed));
+    append_positions<N>(list, tuples.size(), questions, of_each(received, decompressed));
 }
 
 }  // namespace octetra::distributed

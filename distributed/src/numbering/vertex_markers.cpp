@@ -1,6 +1,5 @@
 #include "numbering/vertex_markers.hpp"
 
-#include "comm/local_failure.hpp"
 #include "level/known_marker.hpp"
 
 namespace octetra::distributed {
@@ -39,36 +38,29 @@ std::vector<std::vector<Marker>> replies_to(const std::vector<std::vector<Known>
 /// The markers of a vertex are merged at a rendezvous process determined by its number.
 std::vector<Marker> vertex_markers(const DistributedMesh& mesh, const CanonicalNumbers& numbers) {
     const Communicator& processes = mesh.processes;
-    // A process without vertices has no markers, so the presence of markers is reduced over all.
-    const bool has_markers = !mesh.input_vertex_markers.empty() || !mesh.midpoint_markers.empty();
-    if (processes.max(has_markers ? 1 : 0) == 0) return {};
-    const auto process_count = static_cast<std::size_t>(processes.size());
-    const std::uint64_t block = numbers.vertex_count / process_count + 1;
-    std::vector<std::vector<Known>> known;
-    std::vector<std::vector<Marker>> replies;
-    std::vector<Marker> markers;
-    LocalFailure failure;
-    failure.attempt([&] {
-        known.resize(process_count);
+    return processes.transaction([&]() -> std::vector<Marker> {
+        // A process without vertices has no markers, so the presence of markers is reduced over
+        // all.
+        const bool has_markers =
+            !mesh.input_vertex_markers.empty() || !mesh.midpoint_markers.empty();
+        if (processes.max(has_markers ? 1 : 0) == 0) return {};
+        const auto process_count = static_cast<std::size_t>(processes.size());
+        const std::uint64_t block = numbers.vertex_count / process_count + 1;
+        std::vector<std::vector<Known>> known(process_count);
         for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
             const auto number = static_cast<std::uint64_t>(numbers.of_vertex[v]);
             known[number / block].push_back({number, known_marker(mesh, v)});
         }
-    });
-    failure.agree(processes);
-    failure.attempt([&] {
-        const auto inboxes = processes.all_to_all(known);
-        replies = replies_to(inboxes, block * static_cast<std::uint64_t>(processes.rank()), block);
-    });
-    failure.agree(processes);
-    failure.attempt([&] {
+        const auto replies =
+            replies_to(processes.all_to_all(known),
+                       block * static_cast<std::uint64_t>(processes.rank()), block);
         // Vertices are in canonical order, so the concatenated answers are in their order.
+        std::vector<Marker> markers;
         for (const auto& answers : processes.all_to_all(replies)) {
             markers.insert(markers.end(), answers.begin(), answers.end());
         }
+        return markers;
     });
-    failure.agree(processes);
-    return markers;
 }
 
 }  // namespace octetra::distributed

@@ -39,9 +39,12 @@ struct CanonicalMesh::Parts {
 
 CanonicalMesh::CanonicalMesh(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 CanonicalMesh::CanonicalMesh(DistributedMesh mesh)
-    : parts_(std::make_unique<Parts>(std::move(mesh))) {}
+    : parts_(Communicator(mesh.processes).transaction([&] {
+          return std::make_unique<Parts>(std::move(mesh));
+      })) {}
 CanonicalMesh CanonicalMesh::of(const DistributedMesh& mesh) {
-    return CanonicalMesh(std::make_unique<Parts>(Parts::Borrowed{&mesh}));
+    return CanonicalMesh(mesh.processes.transaction(
+        [&] { return std::make_unique<Parts>(Parts::Borrowed{&mesh}); }));
 }
 CanonicalMesh::~CanonicalMesh() = default;
 CanonicalMesh::CanonicalMesh(CanonicalMesh&&) noexcept = default;
@@ -58,9 +61,12 @@ MeshSource& CanonicalMesh::whole() {
 
 std::string write_mesh(CanonicalMesh& mesh, const std::filesystem::path& path) {
     const CanonicalSlices* slices = mesh.parts_->slices.get();
-    if (slices == nullptr || !is_in_pieces(path)) return octetra::write_mesh(mesh.whole(), path);
-    OwnPiece piece(*mesh.parts_->mesh, slices->lists(), slices->numbers(), slices->facts());
-    return write_pieces(piece, slices->group(), path);
+    if (slices == nullptr) return octetra::write_mesh(mesh.whole(), path);
+    return slices->group().transaction([&] {
+        if (!is_in_pieces(path)) return octetra::write_mesh(mesh.whole(), path);
+        OwnPiece piece(*mesh.parts_->mesh, slices->lists(), slices->numbers(), slices->facts());
+        return write_pieces(piece, slices->group(), path);
+    });
 }
 
 }  // namespace octetra::distributed

@@ -146,12 +146,14 @@ Collected collect(DistributedMesh mesh) {
 }
 
 Collected collect_copy(const DistributedMesh& mesh) {
-    const Phase phase(mesh.processes, "collect");
-    Collected whole = gather(mesh);
-    whole.mesh.index_base = mesh.index_base;
-    if (mesh.processes.is_first()) whole.mesh.group_names = mesh.group_names.list();
-    whole.maps.first_midpoint = VertexIndex{mesh.input_vertex_count};
-    return whole;
+    return mesh.processes.transaction([&] {
+        const Phase phase(mesh.processes, "collect");
+        Collected whole = gather(mesh);
+        whole.mesh.index_base = mesh.index_base;
+        if (mesh.processes.is_first()) whole.mesh.group_names = mesh.group_names.list();
+        whole.maps.first_midpoint = VertexIndex{mesh.input_vertex_count};
+        return whole;
+    });
 }
 
 }  // namespace octetra::distributed

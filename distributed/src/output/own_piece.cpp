@@ -91,9 +91,7 @@ std::span<const std::uint64_t> OwnPiece::parents(const Window& w) {
 }
 
 void OwnPiece::add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing) {
-    mesh_->processes.transaction([&] {
-        for (const Field& field : fields) add(field, sharing);
-    });
+    for (const Field& field : fields) add(field, sharing);
 }
 
 void OwnPiece::add(const Field& field, const Sharing<VertexIndex>& sharing) {

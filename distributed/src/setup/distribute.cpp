@@ -2,6 +2,7 @@
 #include <array>
 #include <cstring>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -239,18 +240,25 @@ void check_ranks(const Mesh& mesh, const std::vector<int>& cell_to_rank, int ran
 /// a time in addition to the mesh.
 Share send_shares(const Communicator& processes, const Mesh& mesh,
                   const std::vector<int>& cell_to_rank) {
-    Share share;
-    if (!processes.is_first()) {
-        share.for_each_array(
-            [&]<class T>(std::vector<T>& values) { values = processes.receive<T>(0); });
-        return share;
-    }
-    ShareExtractor extractor(mesh, cell_to_rank, processes.size());
+    std::optional<ShareExtractor> extractor;
+    if (processes.is_first()) extractor.emplace(mesh, cell_to_rank, processes.size());
+    Share own;
     for (int rank = 1; rank < processes.size(); ++rank) {
-        share = extractor.share_of(rank);
-        share.for_each_array([&](const auto& values) { processes.send(values, rank); });
+        Share share;
+        if (extractor) share = extractor->share_of(rank);
+        // Only the first process and the receiver have a neighbour in these exchanges.
+        std::vector<int> neighbour;
+        if (extractor) neighbour.push_back(rank);
+        if (processes.rank() == rank) neighbour.push_back(0);
+        share.for_each_array([&]<class T>(std::vector<T>& values) {
+            std::vector<std::vector<T>> sent(neighbour.size());
+            if (extractor) sent.front() = std::move(values);
+            auto received = processes.exchange_with(neighbour, sent);
+            if (processes.rank() == rank) values = std::move(received.front());
+        });
+        if (processes.rank() == rank) own = std::move(share);
     }
-    return extractor.share_of(0);
+    return extractor ? extractor->share_of(0) : own;
 }
 
 template <class I, std::size_t N>
@@ -293,15 +301,13 @@ void move_mesh(Mesh mesh, DistributedMesh& part) {
     part.edges = std::move(mesh.edges);
 }
 
-}  // namespace
-
-DistributedMesh distribute(const Communicator& processes, Mesh mesh,
-                           const std::vector<int>& cell_to_rank) {
-    const StandardArithmetic standard;
+/// Collective, within a transaction.
+DistributedMesh parts_of(const Communicator& processes, Mesh mesh,
+                         const std::vector<int>& cell_to_rank) {
     const Phase phase(processes, "distribute");
-    processes.on_first([&] {
-        if (processes.size() > 1) check_ranks(mesh, cell_to_rank, processes.size());
-    });
+    if (processes.is_first() && processes.size() > 1) {
+        check_ranks(mesh, cell_to_rank, processes.size());
+    }
     auto [facts, group_names] = broadcast_facts(processes, mesh);
 
     DistributedMesh part;
@@ -323,6 +329,15 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
     const Phase finding(processes, "interfaces");
     part.interfaces = find_interfaces(part, find_vertex_sharing(part));
     return part;
+}
+
+}  // namespace
+
+DistributedMesh distribute(const Communicator& processes, Mesh mesh,
+                           const std::vector<int>& cell_to_rank) {
+    const StandardArithmetic standard;
+    return processes.transaction(
+        [&] { return parts_of(processes, std::move(mesh), cell_to_rank); });
 }
 
 }  // namespace octetra::distributed

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <optional>
 #include <ranges>
 #include <span>
 #include <string>
@@ -19,7 +18,6 @@
 #include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/profile.hpp>
 
-#include "comm/local_failure.hpp"
 #include "setup/ancestors_of_roots.hpp"
 #include "setup/find_interfaces.hpp"
 #include "setup/number_check.hpp"
@@ -225,48 +223,40 @@ IndexVector<I, std::array<VertexIndex, N>> tagged_by_position(
 template <class I, std::size_t N>
 std::vector<std::uint8_t> kept(const Communicator& processes, const PartVertices& vertices,
                                const IndexVector<I, std::array<VertexIndex, N>>& list,
-                               const std::vector<Marker>& markers, const char* what,
-                               LocalFailure& failure) {
+                               const std::vector<Marker>& markers, const char* what) {
     using Key = std::array<std::uint64_t, N + 1>;  // vertices and marker
     std::vector<std::pair<Key, std::uint32_t>> entries;
     std::vector<std::array<std::uint64_t, N>> keys;
     std::vector<Key> marked_keys;
-    failure.attempt([&] {
-        for (I i{0}; i < list.end_index(); ++i) {
-            Key key{};
-            for (std::size_t k = 0; k < N; ++k) key[k] = vertices.numbers()[list[i][k].value()];
-            std::sort(key.begin(), key.begin() + N);
-            if (!markers.empty()) key[N] = static_cast<std::uint32_t>(markers[i.value()]);
-            entries.emplace_back(key, i.value());
-        }
-        std::ranges::sort(entries);
-        for (const auto& [key, i] : entries) {
-            if (!marked_keys.empty() && marked_keys.back() == key) continue;
-            marked_keys.push_back(key);
-            auto& vertices_only = keys.emplace_back();
-            std::copy_n(key.begin(), N, vertices_only.begin());
-        }
-    });
-    const auto sharers = find_sharers(processes, keys, failure);
-    const auto agreeing = find_sharers(processes, marked_keys, failure);
-    failure.agree(processes);  // otherwise messages may be missing
-    std::vector<std::uint8_t> keeps;
-    failure.attempt([&] {
-        if (sharers != agreeing) {
-            refuse(processes, "another process lists a {} of this process with another marker",
-                   what);
-        }
-        std::vector<std::uint8_t> keeps_key(keys.size(), 1);
-        for (const Sharer& s : sharers) {
-            if (s.rank < processes.rank()) keeps_key[s.key] = 0;
-        }
-        keeps.resize(list.size());
-        std::size_t key = 0;
-        for (const auto& [marked_key, i] : entries) {
-            while (marked_keys[key] != marked_key) ++key;
-            keeps[i] = keeps_key[key];
-        }
-    });
+    for (I i{0}; i < list.end_index(); ++i) {
+        Key key{};
+        for (std::size_t k = 0; k < N; ++k) key[k] = vertices.numbers()[list[i][k].value()];
+        std::sort(key.begin(), key.begin() + N);
+        if (!markers.empty()) key[N] = static_cast<std::uint32_t>(markers[i.value()]);
+        entries.emplace_back(key, i.value());
+    }
+    std::ranges::sort(entries);
+    for (const auto& [key, i] : entries) {
+        if (!marked_keys.empty() && marked_keys.back() == key) continue;
+        marked_keys.push_back(key);
+        auto& vertices_only = keys.emplace_back();
+        std::copy_n(key.begin(), N, vertices_only.begin());
+    }
+    const auto sharers = find_sharers(processes, keys);
+    const auto agreeing = find_sharers(processes, marked_keys);
+    if (sharers != agreeing) {
+        refuse(processes, "another process lists a {} of this process with another marker", what);
+    }
+    std::vector<std::uint8_t> keeps_key(keys.size(), 1);
+    for (const Sharer& s : sharers) {
+        if (s.rank < processes.rank()) keeps_key[s.key] = 0;
+    }
+    std::vector<std::uint8_t> keeps(list.size());
+    std::size_t key = 0;
+    for (const auto& [marked_key, i] : entries) {
+        while (marked_keys[key] != marked_key) ++key;
+        keeps[i] = keeps_key[key];
+    }
     return keeps;
 }
 
@@ -283,25 +273,21 @@ struct TaggedList {
 template <class I, std::size_t N>
 void take_tagged(const Communicator& processes, const PartVertices& vertices,
                  const TaggedList<I, N>& listed,
-                 IndexVector<I, std::array<VertexIndex, N>>& entities, AncestorMap& ancestors,
-                 LocalFailure& failure) {
-    const auto keeps = kept(processes, vertices, listed.list, listed.markers, listed.what, failure);
+                 IndexVector<I, std::array<VertexIndex, N>>& entities, AncestorMap& ancestors) {
+    const auto keeps = kept(processes, vertices, listed.list, listed.markers, listed.what);
     const auto count = static_cast<std::uint64_t>(std::ranges::count(keeps, std::uint8_t{1}));
     std::uint64_t next = processes.sum_before(count);
     const bool are_numbered = processes.max(listed.numbers.size()) > 0;
-    failure.attempt([&] {
-        std::vector<std::uint64_t> numbers;
-        std::vector<Marker> kept_markers;
-        for (I i{0}; i < listed.list.end_index(); ++i) {
-            if (keeps[i.value()] == 0) continue;
-            entities.push_back(listed.list[i]);
-            numbers.push_back(are_numbered ? listed.numbers[i.value()] : next++);
-            if (!listed.markers.empty()) kept_markers.push_back(listed.markers[i.value()]);
-        }
-        ancestors = ancestors_of_roots(std::move(numbers), std::move(kept_markers));
-    });
+    std::vector<std::uint64_t> numbers;
+    std::vector<Marker> kept_markers;
+    for (I i{0}; i < listed.list.end_index(); ++i) {
+        if (keeps[i.value()] == 0) continue;
+        entities.push_back(listed.list[i]);
+        numbers.push_back(are_numbered ? listed.numbers[i.value()] : next++);
+        if (!listed.markers.empty()) kept_markers.push_back(listed.markers[i.value()]);
+    }
+    ancestors = ancestors_of_roots(std::move(numbers), std::move(kept_markers));
     if (!are_numbered) return;
-    failure.agree(processes);
     check_complete(processes, ancestors.roots, processes.sum(count), listed.what);
 }
 
@@ -331,76 +317,60 @@ void take_vertices(const MeshPart& part, const PartVertices& vertices,
     renumber(mesh.edges);
 }
 
-}  // namespace
-
-DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
-    const StandardArithmetic standard;
+/// Collective, within a transaction.
+DistributedMesh mesh_of(const Communicator& processes, MeshPart part) {
     const Phase phase(processes, "distribute");
-    LocalFailure failure;
-    failure.attempt([&] { check_sizes(processes, part); });
-    failure.agree(processes);
+    check_sizes(processes, part);
     check_consistent(processes, part);
 
-    std::optional<DistributedMesh> made;
-    failure.attempt([&] {
-        made.emplace();
-        made->group_names = SharedGroupNames(std::move(part.group_names));
-    });
-    failure.agree(processes);
-    DistributedMesh& mesh = *made;
+    DistributedMesh mesh;
+    mesh.group_names = SharedGroupNames(std::move(part.group_names));
     mesh.processes = processes;
     mesh.attributes_per_point = part.attributes_per_point;
     mesh.index_base = part.index_base;
-    std::optional<PartVertices> vertices;
-    IndexVector<FacetIndex, FacetVertices> facets;
-    IndexVector<EdgeIndex, EdgeVertices> edges;
-    failure.attempt([&] {
-        vertices.emplace(processes, part);
-        mesh.cells = cells_by_position(processes, part, *vertices);
-        facets = tagged_by_position<FacetIndex>(processes, *vertices, mesh.cells, part.facets,
-                                                part.facet_markers, cell_faces, "facet");
-        edges = tagged_by_position<EdgeIndex>(processes, *vertices, mesh.cells, part.edges,
-                                              part.edge_markers, cell_edges, "edge");
-    });
-    failure.agree(processes);
-
+    PartVertices vertices(processes, part);
+    mesh.cells = cells_by_position(processes, part, vertices);
+    const auto facets = tagged_by_position<FacetIndex>(processes, vertices, mesh.cells, part.facets,
+                                                       part.facet_markers, cell_faces, "facet");
+    const auto edges = tagged_by_position<EdgeIndex>(processes, vertices, mesh.cells, part.edges,
+                                                     part.edge_markers, cell_edges, "edge");
     const CheckedVertices checked = check_vertices(
-        processes, vertices->numbers(), vertices->used(),
-        [&](std::size_t position) { return part.points[vertices->at(position)]; },
+        processes, vertices.numbers(), vertices.used(),
+        [&](std::size_t position) { return part.points[vertices.at(position)]; },
         [&](std::size_t position) {
             return part.point_markers.empty() ? Marker{0}
-                                              : part.point_markers[vertices->at(position)];
+                                              : part.point_markers[vertices.at(position)];
         },
         [&](std::size_t position) {
             const std::size_t count = part.attributes_per_point;
-            return std::span(part.point_attributes).subspan(vertices->at(position) * count, count);
+            return std::span(part.point_attributes).subspan(vertices.at(position) * count, count);
         });
     mesh.input_vertex_count = checked.count;
     mesh.input_cell_count = processes.sum(part.cells.size());
     const std::uint64_t first_cell = processes.sum_before(part.cells.size());
-    failure.attempt([&] {
-        if (part.cell_numbers.empty()) {
-            part.cell_numbers.resize(part.cells.size());
-            std::iota(part.cell_numbers.begin(), part.cell_numbers.end(), first_cell);
-        }
-    });
-    failure.agree(processes);
+    if (part.cell_numbers.empty()) {
+        part.cell_numbers.resize(part.cells.size());
+        std::iota(part.cell_numbers.begin(), part.cell_numbers.end(), first_cell);
+    }
     check_complete(processes, part.cell_numbers, mesh.input_cell_count, "cell");
 
-    take_tagged(processes, *vertices,
+    take_tagged(processes, vertices,
                 TaggedList<FacetIndex, 3>{"facet", facets, part.facet_markers, part.facet_numbers},
-                mesh.facets, mesh.facet_ancestors, failure);
-    take_tagged(processes, *vertices,
+                mesh.facets, mesh.facet_ancestors);
+    take_tagged(processes, vertices,
                 TaggedList<EdgeIndex, 2>{"edge", edges, part.edge_markers, part.edge_numbers},
-                mesh.edges, mesh.edge_ancestors, failure);
-    failure.attempt([&] {
-        mesh.cell_ancestors =
-            ancestors_of_roots(std::move(part.cell_numbers), std::move(part.regions));
-        take_vertices(part, *vertices, checked.keeps, mesh);
-    });
-    failure.agree(processes);
+                mesh.edges, mesh.edge_ancestors);
+    mesh.cell_ancestors = ancestors_of_roots(std::move(part.cell_numbers), std::move(part.regions));
+    take_vertices(part, vertices, checked.keeps, mesh);
     mesh.interfaces = find_interfaces(mesh, find_vertex_sharing(mesh));
-    return std::move(mesh);
+    return mesh;
+}
+
+}  // namespace
+
+DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
+    const StandardArithmetic standard;
+    return processes.transaction([&] { return mesh_of(processes, std::move(part)); });
 }
 
 }  // namespace octetra::distributed

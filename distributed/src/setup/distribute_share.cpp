@@ -12,7 +12,6 @@
 #include <octetra/core/repeated_cells.hpp>
 #include <octetra/distributed/profile.hpp>
 
-#include "comm/local_failure.hpp"
 #include "partition/cell_weights.hpp"
 #include "partition/rcb.hpp"
 #include "setup/ancestors_of_roots.hpp"
@@ -75,7 +74,7 @@ struct Weights {
 
 /// Collective. Computes and checks the weights.
 Weights weights_of(const Communicator& processes, const MeshShare& share,
-                   const ShareCorners& corners, const Weigh& weigh, LocalFailure& failure) {
+                   const ShareCorners& corners, const Weigh& weigh) {
     if (!weigh) return {};
     const std::size_t count = share.lists.cells.size();
     std::vector<float> weights = weigh({.processes = processes,
@@ -87,13 +86,10 @@ Weights weights_of(const Communicator& processes, const MeshShare& share,
     constexpr std::uint64_t complement = 0xffff'ffff;
     // compared by bit pattern, which orders positive numbers correctly
     std::uint64_t least = complement;
-    failure.attempt([&] {
-        check_weights(count, weights);
-        for (const float weight : weights) {
-            least = std::min<std::uint64_t>(least, std::bit_cast<std::uint32_t>(weight));
-        }
-    });
-    failure.agree(processes);
+    check_weights(count, weights);
+    for (const float weight : weights) {
+        least = std::min<std::uint64_t>(least, std::bit_cast<std::uint32_t>(weight));
+    }
     least = complement - processes.max(complement - least);
     return {std::move(weights), std::bit_cast<float>(static_cast<std::uint32_t>(least))};
 }
@@ -118,23 +114,20 @@ bool has_repeated_cell(const IndexVector<CellIndex, CellVertices>& cells,
 
 /// Collective. Returns whether another process has a cell with the same vertices as a cell of this
 /// process. Only cells whose vertices are all shared are candidates.
-bool shares_cell_with_others(const DistributedMesh& mesh, const VerticesOfPart& vertices,
-                             LocalFailure& failure) {
+bool shares_cell_with_others(const DistributedMesh& mesh, const VerticesOfPart& vertices) {
     std::vector<std::array<std::uint64_t, 4>> keys;
-    failure.attempt([&] {
-        const auto is_shared = [&](VertexIndex v) { return vertices.is_shared[v.value()] == 1; };
-        for (const CellVertices& cell : mesh.cells) {
-            if (!std::ranges::all_of(cell, is_shared)) continue;
-            auto& key = keys.emplace_back();
-            for (std::size_t k = 0; k < 4; ++k) {
-                key[k] = static_cast<std::uint64_t>(mesh.input_vertices[cell[k].value()]);
-            }
-            std::ranges::sort(key);
+    const auto is_shared = [&](VertexIndex v) { return vertices.is_shared[v.value()] == 1; };
+    for (const CellVertices& cell : mesh.cells) {
+        if (!std::ranges::all_of(cell, is_shared)) continue;
+        auto& key = keys.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k) {
+            key[k] = static_cast<std::uint64_t>(mesh.input_vertices[cell[k].value()]);
         }
-        std::ranges::sort(keys);
-        keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-    });
-    return !find_sharers(mesh.processes, keys, failure).empty();
+        std::ranges::sort(key);
+    }
+    std::ranges::sort(keys);
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    return !find_sharers(mesh.processes, keys).empty();
 }
 
 /// Assembles a distributed mesh from the shares that processes have read, step by step.
@@ -157,25 +150,21 @@ public:
         std::optional<ShareCorners> corners;
         std::vector<int> parts;
         in_phase(processes_, "partition", [&] {
-            corners.emplace(processes_, owners, share_, failure_);
+            corners.emplace(processes_, owners, share_);
             parts = find_parts(*corners, method, weigh);
             corners->forget_points();
         });
         const Phase phase(processes_, "distribute");
-        CellsOfPart part = send_cells(processes_, share_, *corners, parts, failure_);
+        CellsOfPart part = send_cells(processes_, share_, *corners, parts);
         mesh_.cells = std::move(part.cells);
-        failure_.attempt([&] {
-            mesh_.cell_ancestors =
-                ancestors_of_roots(std::move(part.numbers), std::move(part.regions));
-        });
-        failure_.agree(processes_);
+        mesh_.cell_ancestors = ancestors_of_roots(std::move(part.numbers), std::move(part.regions));
     }
 
     /// Collective. Fetches the vertices of the cells, and the facets and edges at these vertices.
     void distribute_vertices_and_tagged(const OwnerMap& owners) {
         const Phase phase(processes_, "distribute");
-        VerticesOfPart vertices = find_vertices(processes_, owners, share_, mesh_.cells, failure_);
-        fetch_vertices(processes_, vertices, share_, mesh_, failure_);
+        VerticesOfPart vertices = find_vertices(processes_, owners, share_, mesh_.cells);
+        fetch_vertices(processes_, vertices, share_, mesh_);
         for (CellVertices& cell : mesh_.cells) {
             for (VertexIndex& v : cell) v = vertices.set.place_of(v);
         }
@@ -188,11 +177,9 @@ public:
         distribute_tagged(owners, vertices, lists.edges, lists.edge_markers, share_.first_edge,
                           share_.facts.edges, share_.facts.has_edge_markers, cell_edges,
                           mesh_.edges, mesh_.edge_ancestors);
-        failure_.attempt(
-            [&] { is_sound_ = is_sound_ && !has_repeated_cell(mesh_.cells, mesh_.points.size()); });
-        if (shares_cell_with_others(mesh_, vertices, failure_)) is_sound_ = false;
+        is_sound_ = is_sound_ && !has_repeated_cell(mesh_.cells, mesh_.points.size());
+        if (shares_cell_with_others(mesh_, vertices)) is_sound_ = false;
         is_shared_ = std::move(vertices.is_shared);
-        failure_.agree(processes_);
     }
 
     /// Collective. Returns the mesh, or nothing on all processes if one has found an error.
@@ -204,7 +191,7 @@ public:
     }
 
     [[nodiscard]] OwnerMap owners() {
-        return owners_of_shares(processes_, share_.first_vertex, share_.facts.vertices, failure_);
+        return owners_of_shares(processes_, share_.first_vertex, share_.facts.vertices);
     }
 
 private:
@@ -214,7 +201,7 @@ private:
         CellCentroids centroids(corners);
         std::vector<int> parts;
         if (method == PartitionMethod::rcb) {
-            const Weights weights = weights_of(processes_, share_, corners, weigh, failure_);
+            const Weights weights = weights_of(processes_, share_, corners, weigh);
             WeighedPoints points{
                 .count = share_.lists.cells.size(),
                 .points = [&](std::size_t first,
@@ -226,15 +213,11 @@ private:
                     return integer_weight(weights.of_cells[i], weights.least);
                 };
             }
-            failure_.agree(processes_);
-            parts = processes_.transaction(
-                [&] { return bisect_coordinates(processes_, points, processes_.size()); });
+            parts = bisect_coordinates(processes_, points, processes_.size());
         } else {
-            failure_.attempt([&] { parts = parts_by_number(processes_, share_); });
+            parts = parts_by_number(processes_, share_);
         }
-        failure_.attempt(
-            [&] { is_sound_ = is_sound_ && centroids.are_positive(share_.lists.cells.size()); });
-        failure_.agree(processes_);
+        is_sound_ = is_sound_ && centroids.are_positive(share_.lists.cells.size());
         return parts;
     }
 
@@ -247,16 +230,14 @@ private:
                            IndexVector<I, std::array<VertexIndex, N>>& list,
                            AncestorMap& ancestors) {
         if (count == 0) return;
-        TaggedSides<I, N> tagged(processes_, vertices, failure_);
+        TaggedSides<I, N> tagged(processes_, vertices);
         if (!tagged.collect(owners, read, markers, first)) is_sound_ = false;
         if (!tagged.find_cells(mesh_.cells, sides)) is_sound_ = false;
-        failure_.attempt([&] { tagged.take(has_markers, list, ancestors); });
-        failure_.agree(processes_);
+        tagged.take(has_markers, list, ancestors);
     }
 
     Communicator processes_;
     MeshShare share_;
-    LocalFailure failure_;
     bool is_sound_ = true;  // as far as this process has checked
     std::vector<std::uint8_t> is_shared_;
     DistributedMesh mesh_;
@@ -266,17 +247,11 @@ private:
 
 std::optional<DistributedMesh> distribute_share(const Communicator& processes, MeshShare share,
                                                 PartitionMethod method, const Weigh& weigh) {
-    LocalFailure failure;
-    std::optional<Assembly> assembly;
-    OwnerMap owners;
-    in_phase(processes, "distribute", [&] {
-        failure.attempt([&] { assembly.emplace(processes, std::move(share)); });
-        failure.agree(processes);
-        owners = assembly->owners();
-    });
-    assembly->send_cells_to_parts(owners, method, weigh);
-    assembly->distribute_vertices_and_tagged(owners);
-    return std::move(*assembly).finish();
+    Assembly assembly(processes, std::move(share));
+    const OwnerMap owners = in_phase(processes, "distribute", [&] { return assembly.owners(); });
+    assembly.send_cells_to_parts(owners, method, weigh);
+    assembly.distribute_vertices_and_tagged(owners);
+    return std::move(assembly).finish();
 }
 
 }  // namespace octetra::distributed

@@ -17,12 +17,13 @@ namespace octetra::distributed {
     return method == PartitionMethod::rcb || method == PartitionMethod::block;
 }
 
-/// Collective. Distributes the shares of a mesh that processes have read to its parts. The memory
-/// of a process is proportional to its share and its part, plus three sixteenths of a byte for each
-/// vertex of the mesh. Checks the same conditions as read_mesh(): cells are positive, and no two
-/// have the same vertices; every tagged facet and edge belongs to a cell, a facet to at most one on
-/// each side, and has one marker. Returns nothing on all processes if one of them does not hold.
-/// Throws OutOfMemory, and exceptions of `weigh`; see ReadPartsOptions.
+/// Collective, within a transaction. Distributes the shares of a mesh that processes have read to
+/// its parts. The memory of a process is proportional to its share and its part, plus three
+/// sixteenths of a byte for each vertex of the mesh. Checks the same conditions as read_mesh():
+/// cells are positive, and no two have the same vertices; every tagged facet and edge belongs to a
+/// cell, a facet to at most one on each side, and has one marker. Returns nothing on all processes
+/// if one of them does not hold. Throws OutOfMemory, and exceptions of `weigh`; see
+/// ReadPartsOptions.
 ///
 /// A process fetches the corners of its cells from the processes that have read them, determines
 /// orientations and centroids, and sends the cells to their parts. Vertices follow the cells. A

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
+#include <span>
 #include <utility>
-
-#include "comm/local_failure.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -184,37 +182,29 @@ VertexLists<N> common(const VertexLists<N>& own, const SharedIndices& among,
 std::vector<Interface> find_interfaces(const DistributedMesh& mesh,
                                        const Sharing<VertexIndex>& sharing) {
     if (mesh.processes.size() == 1) return {};
-    LocalFailure failure;
-    std::optional<CandidatesOfAll> candidates;
-    std::optional<SharedIndices> among;
-    std::vector<Indices> outboxes;
-    failure.attempt([&] {
-        candidates.emplace(mesh, sharing);
-        among.emplace(mesh.points.size());
-        for (const Candidates& of_one : candidates->of_rank) {
-            outboxes.push_back(message_of(of_one, *among));
+    return mesh.processes.transaction([&] {
+        CandidatesOfAll candidates(mesh, sharing);
+        SharedIndices among(mesh.points.size());
+        std::vector<Indices> outboxes;
+        for (const Candidates& of_one : candidates.of_rank) {
+            outboxes.push_back(message_of(of_one, among));
         }
-    });
-    failure.agree(mesh.processes);
-    std::vector<Interface> interfaces;
-    failure.attempt([&] {
-        const auto inboxes = mesh.processes.exchange_with(candidates->ranks, outboxes);
+        const auto inboxes = mesh.processes.exchange_with(candidates.ranks, outboxes);
+        std::vector<Interface> interfaces;
         for (std::size_t i = 0; i < inboxes.size(); ++i) {
-            const Candidates& own = candidates->of_rank[i];
+            const Candidates& own = candidates.of_rank[i];
             const std::span<const std::uint32_t> received(inboxes[i]);
-            if (received.empty()) continue;  // the process has failed
-            among->set_list(*own.shared);
+            among.set_list(*own.shared);
             const std::size_t edges = std::size_t{2} * received.front();
             Interface interface {
-                candidates->ranks[i], common(own.edges, *among, received.subspan(1, edges)),
-                    common(own.faces, *among, received.subspan(1 + edges))
+                candidates.ranks[i], common(own.edges, among, received.subspan(1, edges)),
+                    common(own.faces, among, received.subspan(1 + edges))
             };
             if (interface.edges.empty() && interface.faces.empty()) continue;
             interfaces.push_back(std::move(interface));
         }
+        return interfaces;
     });
-    failure.agree(mesh.processes);
-    return interfaces;
 }
 
 }  // namespace octetra::distributed

@@ -6,8 +6,6 @@
 
 #include <octetra/core/error.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 namespace {
 
@@ -115,66 +113,43 @@ CheckedVertices check_vertices(
     }
     CheckedVertices checked{.count = greatest + 1, .keeps = {}};
     const Block block(processes, checked.count);
-    LocalFailure failure;
-    std::vector<std::vector<Listed>> outboxes;
-    failure.attempt([&] {
-        outboxes.resize(static_cast<std::size_t>(processes.size()));
-        for (std::size_t i = 0; i < numbers.size(); ++i) {
-            outboxes[numbers[i] / block.length].push_back(
-                {numbers[i], point_at(i), marker_at(i), used[i], hash_of(attributes_at(i))});
-        }
-    });
-    failure.agree(processes);
-    std::vector<std::vector<Listed>> inboxes;
-    failure.attempt([&] { inboxes = processes.all_to_all(outboxes); });
-    failure.agree(processes);  // otherwise a number may seem to be missing
-    std::vector<std::vector<std::uint8_t>> answers;
-    failure.attempt([&] { answers = answers_to(inboxes, block); });
-    failure.agree(processes);
-    failure.attempt([&] {
-        // Numbers ascend, so the answers arrive in their order.
-        for (const auto& from_one : processes.all_to_all(answers)) {
-            checked.keeps.insert(checked.keeps.end(), from_one.begin(), from_one.end());
-        }
-    });
-    failure.agree(processes);
+    std::vector<std::vector<Listed>> outboxes(static_cast<std::size_t>(processes.size()));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        outboxes[numbers[i] / block.length].push_back(
+            {numbers[i], point_at(i), marker_at(i), used[i], hash_of(attributes_at(i))});
+    }
+    const auto inboxes = processes.all_to_all(outboxes);
+    // Numbers ascend, so the answers arrive in their order.
+    for (const auto& from_one : processes.all_to_all(answers_to(inboxes, block))) {
+        checked.keeps.insert(checked.keeps.end(), from_one.begin(), from_one.end());
+    }
     return checked;
 }
 
 void check_complete(const Communicator& processes, const std::vector<std::uint64_t>& numbers,
                     std::uint64_t count, const char* what) {
     const Block block(processes, count);
-    LocalFailure failure;
-    std::vector<std::vector<std::uint64_t>> outboxes;
-    failure.attempt([&] {
-        outboxes.resize(static_cast<std::size_t>(processes.size()));
-        for (const std::uint64_t number : numbers) {
-            if (number >= count) {
-                throw InputError(fmt::format("rank {}: {} {} is too large: there are {}",
-                                             processes.rank(), what, number, count));
+    std::vector<std::vector<std::uint64_t>> outboxes(static_cast<std::size_t>(processes.size()));
+    for (const std::uint64_t number : numbers) {
+        if (number >= count) {
+            throw InputError(fmt::format("rank {}: {} {} is too large: there are {}",
+                                         processes.rank(), what, number, count));
+        }
+        outboxes[number / block.length].push_back(number);
+    }
+    const auto inboxes = processes.all_to_all(outboxes);
+    std::vector<bool> met(block.end - block.begin, false);
+    for (const auto& inbox : inboxes) {
+        for (const std::uint64_t number : inbox) {
+            if (met[number - block.begin]) {
+                throw InputError(fmt::format("{} {} is listed twice", what, number));
             }
-            outboxes[number / block.length].push_back(number);
+            met[number - block.begin] = true;
         }
-    });
-    failure.agree(processes);
-    std::vector<std::vector<std::uint64_t>> inboxes;
-    failure.attempt([&] { inboxes = processes.all_to_all(outboxes); });
-    failure.agree(processes);
-    failure.attempt([&] {
-        std::vector<bool> met(block.end - block.begin, false);
-        for (const auto& inbox : inboxes) {
-            for (const std::uint64_t number : inbox) {
-                if (met[number - block.begin]) {
-                    throw InputError(fmt::format("{} {} is listed twice", what, number));
-                }
-                met[number - block.begin] = true;
-            }
-        }
-        for (std::size_t i = 0; i < met.size(); ++i) {
-            if (!met[i]) refuse_missing(block.begin + i, what);
-        }
-    });
-    failure.agree(processes);
+    }
+    for (std::size_t i = 0; i < met.size(); ++i) {
+        if (!met[i]) refuse_missing(block.begin + i, what);
+    }
 }
 
 }  // namespace octetra::distributed

@@ -9,7 +9,7 @@
 #include <octetra/distributed/communicator.hpp>
 
 /// Checks global numbers that processes pass. Each number is checked by the process that owns its
-/// block.
+/// block. The functions are collective and must be called within a transaction.
 namespace octetra::distributed {
 
 struct CheckedVertices {
@@ -17,9 +17,9 @@ struct CheckedVertices {
     std::vector<std::uint8_t> keeps;  ///< for each listed vertex: whether this process keeps it
 };
 
-/// Collective. `numbers` are this process's vertices, ascending; `used` states which of them its
+/// `numbers` are this process's vertices, ascending; `used` states which of them its
 /// cells have. A process keeps these; a vertex that no process uses is kept by the lowest rank that
-/// lists it. Throws InputError on all processes if a number from 0 to the greatest is not listed,
+/// lists it. Throws InputError if a number from 0 to the greatest is not listed,
 /// or if the point, marker or attributes of a vertex differ between processes.
 [[nodiscard]] CheckedVertices check_vertices(
     const Communicator& processes, const std::vector<std::uint64_t>& numbers,
@@ -27,7 +27,7 @@ struct CheckedVertices {
     const std::function<Marker(std::size_t)>& marker_at,
     const std::function<std::span<const double>(std::size_t)>& attributes_at);
 
-/// Collective. Throws InputError on all processes unless the numbers, ascending on each, are a
+/// Throws InputError unless the numbers, ascending on each process, are a
 /// partition of 0 .. count - 1.
 void check_complete(const Communicator& processes, const std::vector<std::uint64_t>& numbers,
                     std::uint64_t count, const char* what);

@@ -9,8 +9,6 @@
 #include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/communicator.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 
 /// Maps the entities of a list in a file to the processes that have read them, their owners. Each
@@ -55,20 +53,13 @@ private:
 
 /// Collective. Returns the owners of blocks of which each process passes the first number.
 [[nodiscard]] inline OwnerMap owners_of_shares(const Communicator& processes, std::uint64_t first,
-                                               std::uint64_t count, LocalFailure& failure) {
-    std::vector<std::uint64_t> begins;
-    failure.attempt([&] {
-        begins.resize(static_cast<std::size_t>(processes.size()) + 1, 0);
-        begins[static_cast<std::size_t>(processes.rank())] = first;
-        begins.back() = processes.is_first() ? count : 0;
-    });
-    failure.agree(processes);
+                                               std::uint64_t count) {
+    std::vector<std::uint64_t> begins(static_cast<std::size_t>(processes.size()) + 1, 0);
+    begins[static_cast<std::size_t>(processes.rank())] = first;
+    begins.back() = processes.is_first() ? count : 0;
     processes.sum(std::span(begins));
     return OwnerMap(std::move(begins));
 }
-
-// The functions below are collective and throw as LocalFailure::agree() does if a process fails, so
-// their results are complete.
 
 /// Requests for entities of a list, by number, sent to their owners.
 template <class Number = std::uint64_t>
@@ -79,59 +70,49 @@ struct Requests {
     std::vector<std::vector<Number>> received;
 };
 
-/// Collective. Sends the requests for `numbers`, which ascend.
+/// Collective, within a transaction. Sends the requests for `numbers`, which ascend.
 template <class Number>
 [[nodiscard]] Requests<Number> request(const Communicator& processes, const OwnerMap& owners,
-                                       const std::vector<Number>& numbers, LocalFailure& failure) {
+                                       const std::vector<Number>& numbers) {
     Requests<Number> requests;
-    failure.attempt([&] {
-        requests.sent.resize(static_cast<std::size_t>(processes.size()));
-        auto begin = numbers.begin();
-        for (int rank = 0; rank < processes.size(); ++rank) {
-            const auto end = std::partition_point(
-                begin, numbers.end(), [&](Number number) { return number < owners.end_of(rank); });
-            requests.sent[static_cast<std::size_t>(rank)].assign(begin, end);
-            begin = end;
-        }
-    });
-    failure.agree(processes);
-    failure.attempt([&] { requests.received = processes.all_to_all(requests.sent); });
-    failure.agree(processes);
+    requests.sent.resize(static_cast<std::size_t>(processes.size()));
+    auto begin = numbers.begin();
+    for (int rank = 0; rank < processes.size(); ++rank) {
+        const auto end = std::partition_point(
+            begin, numbers.end(), [&](Number number) { return number < owners.end_of(rank); });
+        requests.sent[static_cast<std::size_t>(rank)].assign(begin, end);
+        begin = end;
+    }
+    requests.received = processes.all_to_all(requests.sent);
     return requests;
 }
 
-/// Collective. Returns the requested values in the order of the numbers, `components` for each.
+/// Collective, within a transaction. Returns the requested values in the order of the numbers,
+/// `components` for each.
 /// `owned` are the values of the entities from number `first` on, which this process owns.
 template <class T, class Number>
 [[nodiscard]] std::vector<T> fetch(const Communicator& processes, const Requests<Number>& requests,
                                    const std::vector<T>& owned, std::uint64_t first,
-                                   LocalFailure& failure, std::size_t components = 1) {
-    std::vector<std::vector<T>> answers;
-    failure.attempt([&] {
-        answers.resize(requests.received.size());
-        for (std::size_t rank = 0; rank < answers.size(); ++rank) {
-            answers[rank].reserve(requests.received[rank].size() * components);
-            for (const Number number : requests.received[rank]) {
-                const T* const values =
-                    owned.data() + static_cast<std::size_t>(number - first) * components;
-                answers[rank].insert(answers[rank].end(), values, values + components);
-            }
+                                   std::size_t components = 1) {
+    std::vector<std::vector<T>> answers(requests.received.size());
+    for (std::size_t rank = 0; rank < answers.size(); ++rank) {
+        answers[rank].reserve(requests.received[rank].size() * components);
+        for (const Number number : requests.received[rank]) {
+            const T* const values =
+                owned.data() + static_cast<std::size_t>(number - first) * components;
+            answers[rank].insert(answers[rank].end(), values, values + components);
         }
-    });
-    failure.agree(processes);
+    }
+    std::vector<std::vector<T>> received = processes.all_to_all(answers);
+    answers.clear();
+    std::size_t count = 0;
+    for (const auto& answer : received) count += answer.size();
     std::vector<T> values;
-    failure.attempt([&] {
-        std::vector<std::vector<T>> received = processes.all_to_all(answers);
-        answers.clear();
-        std::size_t count = 0;
-        for (const auto& answer : received) count += answer.size();
-        reserve_in_huge_pages(values, count);
-        for (auto& answer : received) {
-            values.insert(values.end(), answer.begin(), answer.end());
-            std::vector<T>().swap(answer);
-        }
-    });
-    failure.agree(processes);
+    reserve_in_huge_pages(values, count);
+    for (auto& answer : received) {
+        values.insert(values.end(), answer.begin(), answer.end());
+        std::vector<T>().swap(answer);
+    }
     return values;
 }
 

@@ -35,35 +35,27 @@ std::vector<std::uint8_t> request_unrequested(int rank, const MeshShare& share,
 
 VerticesOfPart find_vertices(const Communicator& processes, const OwnerMap& owners,
                              const MeshShare& share,
-                             const IndexVector<CellIndex, CellVertices>& cells,
-                             LocalFailure& failure) {
+                             const IndexVector<CellIndex, CellVertices>& cells) {
     VerticesOfPart vertices;
-    std::vector<std::uint32_t> numbers;
-    failure.attempt([&] {
-        vertices.set = VertexSet(cells);
-        numbers = vertices.set.numbers();
-    });
-    vertices.requests = request(processes, owners, numbers, failure);
-    std::vector<std::uint8_t> request_counts;
-    failure.attempt([&] {
-        request_counts = request_unrequested(processes.rank(), share, vertices);
-        for (std::uint8_t& times : request_counts) times = times == 2 ? 1 : 0;
-    });
-    vertices.is_shared =
-        fetch(processes, vertices.requests, request_counts, share.first_vertex, failure);
+    vertices.set = VertexSet(cells);
+    vertices.requests = request(processes, owners, vertices.set.numbers());
+    std::vector<std::uint8_t> request_counts =
+        request_unrequested(processes.rank(), share, vertices);
+    for (std::uint8_t& times : request_counts) times = times == 2 ? 1 : 0;
+    vertices.is_shared = fetch(processes, vertices.requests, request_counts, share.first_vertex);
     return vertices;
 }
 
 void fetch_vertices(const Communicator& processes, const VerticesOfPart& vertices,
-                    const MeshShare& share, DistributedMesh& mesh, LocalFailure& failure) {
+                    const MeshShare& share, DistributedMesh& mesh) {
     const auto fetch_owned = [&](const auto& owned, std::size_t components = 1) {
-        return fetch(processes, vertices.requests, owned, share.first_vertex, failure, components);
+        return fetch(processes, vertices.requests, owned, share.first_vertex, components);
     };
     const Mesh& lists = share.lists;
     {
         const std::vector<Point> points =
             fetch_owned(static_cast<const std::vector<Point>&>(lists.points));
-        failure.attempt([&] { mesh.points.assign(points.begin(), points.end()); });
+        mesh.points.assign(points.begin(), points.end());
     }
     if (share.facts.has_point_markers) {
         mesh.input_vertex_markers =
@@ -73,13 +65,10 @@ void fetch_vertices(const Communicator& processes, const VerticesOfPart& vertice
     if (mesh.attributes_per_point > 0) {
         mesh.point_attributes = fetch_owned(lists.point_attributes, mesh.attributes_per_point);
     }
-    failure.attempt([&] {
-        mesh.input_vertices.reserve(vertices.set.size());
-        for (const std::uint32_t number : vertices.set.numbers()) {
-            mesh.input_vertices.push_back(GlobalVertex{number});
-        }
-    });
-    failure.agree(processes);
+    mesh.input_vertices.reserve(vertices.set.size());
+    for (const std::uint32_t number : vertices.set.numbers()) {
+        mesh.input_vertices.push_back(GlobalVertex{number});
+    }
 }
 
 }  // namespace octetra::distributed

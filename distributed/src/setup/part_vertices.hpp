@@ -7,7 +7,6 @@
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "comm/local_failure.hpp"
 #include "setup/owners.hpp"
 #include "setup/vertex_set.hpp"
 
@@ -21,14 +20,14 @@ struct VerticesOfPart {
     std::vector<std::uint8_t> is_shared;  ///< whether another process has each vertex of the set
 };
 
-/// Collective. Finds the vertices of these cells, which have global vertex numbers.
+/// Collective, within a transaction. Finds the vertices of these cells, which have global vertex
+/// numbers.
 [[nodiscard]] VerticesOfPart find_vertices(const Communicator& processes, const OwnerMap& owners,
                                            const MeshShare& share,
-                                           const IndexVector<CellIndex, CellVertices>& cells,
-                                           LocalFailure& failure);
+                                           const IndexVector<CellIndex, CellVertices>& cells);
 
-/// Collective. Fetches points, markers and attributes into the mesh.
+/// Collective, within a transaction. Fetches points, markers and attributes into the mesh.
 void fetch_vertices(const Communicator& processes, const VerticesOfPart& vertices,
-                    const MeshShare& share, DistributedMesh& mesh, LocalFailure& failure);
+                    const MeshShare& share, DistributedMesh& mesh);
 
 }  // namespace octetra::distributed

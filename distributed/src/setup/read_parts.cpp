@@ -10,8 +10,6 @@
 #include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/profile.hpp>
 
-#include "comm/local_failure.hpp"
-#include "comm/same_arguments.hpp"
 #include "setup/distribute_share.hpp"
 
 namespace octetra::distributed {
@@ -35,24 +33,19 @@ std::optional<DistributedMesh> read_by_shares(const Communicator& processes,
                                               const std::filesystem::path& path,
                                               PartitionMethod method,
                                               const ReadPartsOptions& options) {
-    LocalFailure failure;
     std::optional<MeshShare> share;
     {
         const Phase phase(processes, "read");
-        failure.attempt([&] { share = read_mesh_share(path, processes); });
-        failure.agree(processes);
+        share = read_mesh_share(path, processes);
         if (!share || !caller_accepts(share->facts, options)) return std::nullopt;
     }
     const std::vector<std::string> notes = std::move(share->notes);
     auto mesh = distribute_share(processes, std::move(*share), method, options.weigh);
     if (!mesh) return std::nullopt;
     const Phase phase(processes, "read");
-    failure.attempt([&] {
-        for (const std::string& note : notes) {
-            if (processes.is_first()) options.read.note(note);
-        }
-    });
-    failure.agree(processes);
+    for (const std::string& note : notes) {
+        if (processes.is_first()) options.read.note(note);
+    }
     return mesh;
 }
 
@@ -90,20 +83,19 @@ DistributedMesh read_on_first(const Communicator& processes, const std::filesyst
                               const Partition& partition, const ReadPartsOptions& options) {
     Mesh mesh;
     in_phase(processes, "read", [&] {
-        processes.on_first([&] { mesh = read_mesh(path, options.read); });
+        if (processes.is_first()) mesh = read_mesh(path, options.read);
         if (!options.on_facts) return;
         options.on_facts(facts_of_first(processes, mesh));
     });
     std::vector<int> cell_to_rank;
     in_phase(processes, "partition", [&] {
-        processes.on_first([&] {
-            // A part file that does not match the mesh is an error on one rank, too.
-            if (processes.size() == 1 && partition.method != PartitionMethod::file) return;
-            const bool is_weighed = options.weigh && takes_weights(partition);
-            cell_to_rank = partition_cells(
-                mesh, processes.size(), partition,
-                is_weighed ? options.weigh(cells_to_weigh(mesh)) : std::vector<float>{});
-        });
+        // A part file that does not match the mesh is an error on one rank, too.
+        const bool is_needed = processes.size() > 1 || partition.method == PartitionMethod::file;
+        if (!processes.is_first() || !is_needed) return;
+        const bool is_weighed = options.weigh && takes_weights(partition);
+        cell_to_rank = partition_cells(
+            mesh, processes.size(), partition,
+            is_weighed ? options.weigh(cells_to_weigh(mesh)) : std::vector<float>{});
     });
     return distribute(processes, std::move(mesh), cell_to_rank);
 }
@@ -113,15 +105,15 @@ DistributedMesh read_on_first(const Communicator& processes, const std::filesyst
 DistributedMesh read_parts(const Communicator& processes, const std::filesystem::path& path,
                            const Partition& partition, const ReadPartsOptions& options) {
     const StandardArithmetic standard;
-    in_phase(processes, "read", [&] {
-        LocalFailure none;
-        agree_on_same(processes, none, "partition", [&] { return text_of(partition); });
+    return processes.transaction([&] {
+        in_phase(processes, "read", [&] { processes.check_same("partition", text_of(partition)); });
+        if (processes.size() > 1 && supports_shares(partition.method) &&
+            !options.read.only_syntax) {
+            auto mesh = read_by_shares(processes, path, partition.method, options);
+            if (mesh) return std::move(*mesh);
+        }
+        return read_on_first(processes, path, partition, options);
     });
-    if (processes.size() > 1 && supports_shares(partition.method) && !options.read.only_syntax) {
-        auto mesh = read_by_shares(processes, path, partition.method, options);
-        if (mesh) return std::move(*mesh);
-    }
-    return read_on_first(processes, path, partition, options);
 }
 
 }  // namespace octetra::distributed

@@ -17,27 +17,16 @@ struct CellToSend {
 
 /// Collective. Returns the number of cells that this process receives from each process.
 std::vector<std::uint64_t> counts_to_receive(const Communicator& processes,
-                                             const std::vector<int>& parts, LocalFailure& failure) {
-    std::vector<std::vector<std::uint64_t>> sent_counts;
-    failure.attempt([&] {
-        sent_counts.resize(static_cast<std::size_t>(processes.size()));
-        for (const int part : parts) {
-            auto& count = sent_counts[static_cast<std::size_t>(part)];
-            if (count.empty()) count.push_back(0);
-            ++count.front();
-        }
-    });
-    failure.agree(processes);
-    std::vector<std::vector<std::uint64_t>> received_counts;
-    failure.attempt([&] { received_counts = processes.all_to_all(sent_counts); });
-    failure.agree(processes);  // otherwise a process without memory may have sent nothing
+                                             const std::vector<int>& parts) {
+    std::vector<std::vector<std::uint64_t>> sent(static_cast<std::size_t>(processes.size()));
+    for (const int part : parts) {
+        auto& count = sent[static_cast<std::size_t>(part)];
+        if (count.empty()) count.push_back(0);
+        ++count.front();
+    }
+    const auto received = processes.all_to_all(sent);
     std::vector<std::uint64_t> counts;
-    failure.attempt([&] {
-        for (const auto& from_one : received_counts) {
-            counts.push_back(from_one.empty() ? 0 : from_one.front());
-        }
-    });
-    failure.agree(processes);
+    for (const auto& from_one : received) counts.push_back(from_one.empty() ? 0 : from_one.front());
     return counts;
 }
 
@@ -144,26 +133,19 @@ private:
 }  // namespace
 
 CellsOfPart send_cells(const Communicator& processes, MeshShare& share, const ShareCorners& corners,
-                       const std::vector<int>& parts, LocalFailure& failure) {
+                       const std::vector<int>& parts) {
     constexpr std::size_t at_once = std::size_t{1} << 15U;
-    const std::vector<std::uint64_t> counts = counts_to_receive(processes, parts, failure);
     CellExchange exchange(processes, share, corners, parts);
-    failure.attempt([&] { exchange.make_room(counts); });
+    exchange.make_room(counts_to_receive(processes, parts));
     const auto leaving = static_cast<std::uint64_t>(
         std::ranges::count_if(parts, [&](int part) { return part != processes.rank(); }));
     const std::uint64_t rounds = processes.max((leaving + at_once - 1) / at_once);
     for (std::uint64_t round = 0; round < rounds; ++round) {
-        failure.attempt([&] { exchange.fill_boxes(at_once); });
-        failure.agree(processes);
-        failure.attempt([&] { exchange.take(processes.all_to_all(exchange.boxes())); });
-    }
-    CellsOfPart part;
-    failure.attempt([&] {
         exchange.fill_boxes(at_once);
-        part = std::move(exchange).join();
-    });
-    failure.agree(processes);
-    return part;
+        exchange.take(processes.all_to_all(exchange.boxes()));
+    }
+    exchange.fill_boxes(at_once);
+    return std::move(exchange).join();
 }
 
 }  // namespace octetra::distributed

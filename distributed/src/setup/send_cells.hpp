@@ -6,7 +6,6 @@
 #include <octetra/core/mesh_share.hpp>
 #include <octetra/distributed/communicator.hpp>
 
-#include "comm/local_failure.hpp"
 #include "setup/share_corners.hpp"
 
 namespace octetra::distributed {
@@ -18,11 +17,11 @@ struct CellsOfPart {
     std::vector<Marker> regions;  ///< may be empty
 };
 
-/// Collective. Sends each cell of this process's share to the rank that `parts` states; `corners`
-/// provides their vertices. Cells that stay are kept in the memory that they were read into: the
-/// cells and regions of `share` and the cells of `corners` must not be used afterwards.
+/// Collective, within a transaction. Sends each cell of this process's share to the rank that
+/// `parts` states; `corners` provides their vertices. Cells that stay are kept in the memory that
+/// they were read into: the cells and regions of `share` and the cells of `corners` must not be
+/// used afterwards.
 [[nodiscard]] CellsOfPart send_cells(const Communicator& processes, MeshShare& share,
-                                     const ShareCorners& corners, const std::vector<int>& parts,
-                                     LocalFailure& failure);
+                                     const ShareCorners& corners, const std::vector<int>& parts);
 
 }  // namespace octetra::distributed

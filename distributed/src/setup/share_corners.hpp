@@ -6,7 +6,6 @@
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/communicator.hpp>
 
-#include "comm/local_failure.hpp"
 #include "setup/owners.hpp"
 #include "setup/vertex_set.hpp"
 
@@ -17,23 +16,17 @@ namespace octetra::distributed {
 /// looking up the index of a global number is slow.
 class ShareCorners {
 public:
-    /// Collective. Fetches the points that other processes have read.
-    ShareCorners(const Communicator& processes, const OwnerMap& owners, MeshShare& share,
-                 LocalFailure& failure)
+    /// Collective, within a transaction. Fetches the points that other processes have read.
+    ShareCorners(const Communicator& processes, const OwnerMap& owners, MeshShare& share)
         : cells_(&share.lists.cells) {
-        VertexSet vertices;
-        failure.attempt([&] {
-            vertices = VertexSet(*cells_);
-            numbers_ = vertices.numbers();
-        });
-        const auto requests = request(processes, owners, numbers_, failure);
+        VertexSet vertices(*cells_);
+        numbers_ = vertices.numbers();
+        const auto requests = request(processes, owners, numbers_);
         const std::vector<Point>& owned = share.lists.points;
-        points_ = fetch(processes, requests, owned, share.first_vertex, failure);
-        failure.attempt([&] {
-            for (CellVertices& cell : *cells_) {
-                for (VertexIndex& v : cell) v = vertices.place_of(v);
-            }
-        });
+        points_ = fetch(processes, requests, owned, share.first_vertex);
+        for (CellVertices& cell : *cells_) {
+            for (VertexIndex& v : cell) v = vertices.place_of(v);
+        }
     }
 
     /// The cells, with vertex indices into points().

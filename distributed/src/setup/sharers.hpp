@@ -9,8 +9,6 @@
 
 #include <octetra/distributed/communicator.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 
 /// Another process that has the same key.
@@ -51,17 +49,15 @@ void for_each_common(const std::vector<std::vector<Key>>& from_each, auto&& meet
     }
 }
 
-/// Collective. Returns for each of this process's keys, which ascend and are distinct, the other
-/// processes that have it, too; ascending by key and rank. A key is a vertex, or the vertices of an
-/// edge or face, by global numbers, ascending. The result is empty on all processes if one has
-/// failed or fails.
+/// Collective, within a transaction. Returns for each of this process's keys, which ascend and are
+/// distinct, the other processes that have it, too; ascending by key and rank. A key is a vertex,
+/// or the vertices of an edge or face, by global numbers, ascending.
 ///
 /// Equal keys are sent to the same rendezvous process, which a hash determines. Memory and messages
 /// are proportional to the number of keys, and evenly distributed.
 template <std::size_t N>
 [[nodiscard]] std::vector<Sharer> find_sharers(
-    const Communicator& processes, const std::vector<std::array<std::uint64_t, N>>& keys,
-    LocalFailure& failure) {
+    const Communicator& processes, const std::vector<std::array<std::uint64_t, N>>& keys) {
     using Key = std::array<std::uint64_t, N>;
     const auto process_count = static_cast<std::size_t>(processes.size());
     const auto rendezvous_of = [&](const Key& key) {
@@ -70,42 +66,28 @@ template <std::size_t N>
         return (h >> 32U) % process_count;
     };
 
-    std::vector<std::vector<Key>> outboxes;
-    std::vector<std::vector<std::uint32_t>> numbers;
-    failure.attempt([&] {
-        outboxes.resize(process_count);
-        numbers.resize(process_count);
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            const std::size_t rendezvous = rendezvous_of(keys[i]);
-            outboxes[rendezvous].push_back(keys[i]);
-            numbers[rendezvous].push_back(static_cast<std::uint32_t>(i));
-        }
-    });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
-
-    std::vector<std::vector<Sharer>> replies;
-    failure.attempt([&] {
-        const auto inboxes = processes.all_to_all(outboxes);
-        replies.resize(process_count);
-        for_each_common(inboxes, [&](const auto& ranks, const auto& positions) {
-            for (std::size_t i = 0; i < ranks.size(); ++i) {
-                for (const std::int32_t other : ranks) {
-                    if (other == ranks[i]) continue;
-                    replies[static_cast<std::size_t>(ranks[i])].push_back({positions[i], other});
-                }
+    std::vector<std::vector<Key>> outboxes(process_count);
+    std::vector<std::vector<std::uint32_t>> numbers(process_count);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const std::size_t rendezvous = rendezvous_of(keys[i]);
+        outboxes[rendezvous].push_back(keys[i]);
+        numbers[rendezvous].push_back(static_cast<std::uint32_t>(i));
+    }
+    std::vector<std::vector<Sharer>> replies(process_count);
+    for_each_common(processes.all_to_all(outboxes), [&](const auto& ranks, const auto& positions) {
+        for (std::size_t i = 0; i < ranks.size(); ++i) {
+            for (const std::int32_t other : ranks) {
+                if (other == ranks[i]) continue;
+                replies[static_cast<std::size_t>(ranks[i])].push_back({positions[i], other});
             }
-        });
-    });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
-
-    std::vector<Sharer> sharers;
-    failure.attempt([&] {
-        const auto answers = processes.all_to_all(replies);
-        for (std::size_t r = 0; r < process_count; ++r) {
-            for (const Sharer& s : answers[r]) sharers.push_back({numbers[r][s.key], s.rank});
         }
-        std::ranges::sort(sharers);
     });
+    const auto answers = processes.all_to_all(replies);
+    std::vector<Sharer> sharers;
+    for (std::size_t r = 0; r < process_count; ++r) {
+        for (const Sharer& s : answers[r]) sharers.push_back({numbers[r][s.key], s.rank});
+    }
+    std::ranges::sort(sharers);
     return sharers;
 }
 

@@ -11,7 +11,6 @@
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "comm/local_failure.hpp"
 #include "setup/ancestors_of_roots.hpp"
 #include "setup/owners.hpp"
 #include "setup/part_vertices.hpp"
@@ -52,52 +51,45 @@ inline std::uint8_t cell_side(const FacetVertices& face, std::size_t k) {
 inline std::uint8_t cell_side(const EdgeVertices&, std::size_t) { return side::even; }
 
 /// Assigns facets or edges, of which each process has read a share, to processes that have cells at
-/// them. The owner of its lowest vertex handles an entity, because it knows the processes that have
-/// this vertex.
+/// them, within a transaction. The owner of its lowest vertex handles an entity, because it knows
+/// the processes that have this vertex.
 template <class I, std::size_t N>
 class TaggedSides {
 public:
     using Side = TaggedSide<N>;
     using List = IndexVector<I, std::array<VertexIndex, N>>;
 
-    TaggedSides(const Communicator& processes, const VerticesOfPart& vertices,
-                LocalFailure& failure)
-        : processes_(&processes), vertices_(&vertices), failure_(&failure) {}
+    TaggedSides(const Communicator& processes, const VerticesOfPart& vertices)
+        : processes_(&processes), vertices_(&vertices) {}
 
     /// Collective. Sends this process's share, whose first entity has number `first`, to the owners
     /// of the lowest vertices. Returns false if an entity is listed repeatedly with different
     /// markers.
     [[nodiscard]] bool collect(const OwnerMap& owners, const List& list,
                                const IndexVector<I, Marker>& markers, std::uint64_t first) {
-        std::vector<std::vector<Side>> to_owners;
-        failure_->attempt([&] {
-            to_owners.resize(process_count());
-            for (I i{0}; i < list.end_index(); ++i) {
-                const Side one{list[i], static_cast<std::uint32_t>(first + i.value()),
-                               markers.empty() ? Marker{0} : markers[i]};
-                const int owner = owners.rank_of(one.lowest().value());
-                to_owners[static_cast<std::size_t>(owner)].push_back(one);
-            }
-        });
-        failure_->agree(*processes_);
+        std::vector<std::vector<Side>> to_owners(process_count());
+        for (I i{0}; i < list.end_index(); ++i) {
+            const Side one{list[i], static_cast<std::uint32_t>(first + i.value()),
+                           markers.empty() ? Marker{0} : markers[i]};
+            const int owner = owners.rank_of(one.lowest().value());
+            to_owners[static_cast<std::size_t>(owner)].push_back(one);
+        }
+        for (const auto& box : processes_->all_to_all(to_owners)) {
+            owned_.insert(owned_.end(), box.begin(), box.end());
+        }
+        std::vector<std::pair<std::array<VertexIndex, N>, std::size_t>> order;
+        order.reserve(owned_.size());
+        for (const Side& one : owned_) order.emplace_back(one.sorted(), order.size());
+        std::ranges::sort(order);
+        std::vector<Side> sorted;
+        sorted.reserve(owned_.size());
         bool agree = true;
-        failure_->attempt([&] {
-            for (const auto& box : processes_->all_to_all(to_owners)) {
-                owned_.insert(owned_.end(), box.begin(), box.end());
-            }
-            std::vector<std::pair<std::array<VertexIndex, N>, std::size_t>> order;
-            order.reserve(owned_.size());
-            for (const Side& one : owned_) order.emplace_back(one.sorted(), order.size());
-            std::ranges::sort(order);
-            std::vector<Side> sorted;
-            sorted.reserve(owned_.size());
-            for (std::size_t i = 0; i < order.size(); ++i) {
-                sorted.push_back(owned_[order[i].second]);
-                agree = agree && (i == 0 || order[i].first != order[i - 1].first ||
-                                  sorted[i].marker == sorted[i - 1].marker);
-            }
-            owned_ = std::move(sorted);
-        });
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            sorted.push_back(owned_[order[i].second]);
+            agree = agree && (i == 0 || order[i].first != order[i - 1].first ||
+                              sorted[i].marker == sorted[i - 1].marker);
+        }
+        owned_ = std::move(sorted);
         return agree;
     }
 
@@ -107,24 +99,12 @@ public:
     template <std::size_t Sides>
     [[nodiscard]] bool find_cells(const IndexVector<CellIndex, CellVertices>& cells,
                                   const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
-        std::vector<std::vector<Side>> to_parts;
-        failure_->attempt([&] { to_parts = boxes_to_parts(); });
-        failure_->agree(*processes_);
-        std::vector<std::vector<std::uint8_t>> replies;
-        failure_->attempt([&] {
-            received_ = processes_->all_to_all(to_parts);
-            to_parts.clear();
-            replies = find_cells_at(cells, sides);
-        });
-        failure_->agree(*processes_);
-        std::vector<std::vector<std::uint8_t>> kept_by;
-        failure_->attempt([&] { kept_by = processes_->all_to_all(replies); });
-        failure_->agree(*processes_);  // all replies have been received
-        bool is_valid = true;
-        failure_->attempt([&] { is_valid = assign_to_lowest_rank(kept_by); });
-        failure_->agree(*processes_);
-        failure_->attempt([&] { keeps_ = processes_->all_to_all(kept_by); });
-        failure_->agree(*processes_);
+        received_ = processes_->all_to_all(boxes_to_parts());
+        auto kept_by = processes_->all_to_all(find_cells_at(cells, sides));
+        processes_->agree_on_success();  // all replies have been received
+        const bool is_valid = assign_to_lowest_rank(kept_by);
+        keeps_ = processes_->all_to_all(kept_by);
+        processes_->agree_on_success();
         return is_valid;
     }
 
@@ -244,7 +224,6 @@ private:
 
     const Communicator* processes_;
     const VerticesOfPart* vertices_;
-    LocalFailure* failure_;
     std::vector<Side> owned_;                  // sorted by vertices
     std::vector<std::vector<Side>> received_;  // from each owner
     // for each of these: whether this process keeps it

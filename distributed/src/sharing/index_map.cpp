@@ -7,8 +7,6 @@
 #include <octetra/distributed/exchange.hpp>
 #include <octetra/distributed/sides.hpp>
 
-#include "comm/local_failure.hpp"
-
 namespace octetra::distributed {
 namespace {
 
@@ -51,16 +49,16 @@ std::vector<std::uint64_t> running_sums(const Communicator& processes, std::uint
 template <class I>
 IndexMap<I> make_index_map(const Communicator& processes, const Sharing<I>& sharing,
                            std::size_t entity_count) {
-    IndexMap<I> map;
-    LocalFailure failure;
-    failure.attempt([&] { map = owned_first(sharing, entity_count); });
-    failure.agree(processes);
-    failure.attempt([&] { map.rank_begin = running_sums(processes, map.owned_count); });
-    failure.agree(processes);
-    std::uint64_t next = map.rank_begin[static_cast<std::size_t>(processes.rank())];
-    for (std::size_t k = 0; k < map.owned_count; ++k) map.numbers[map.entities[k].value()] = next++;
-    update_copies(processes, sharing, entity_count, map.numbers);
-    return map;
+    return processes.transaction([&] {
+        IndexMap<I> map = owned_first(sharing, entity_count);
+        map.rank_begin = running_sums(processes, map.owned_count);
+        std::uint64_t next = map.rank_begin[static_cast<std::size_t>(processes.rank())];
+        for (std::size_t k = 0; k < map.owned_count; ++k) {
+            map.numbers[map.entities[k].value()] = next++;
+        }
+        update_copies(processes, sharing, entity_count, map.numbers);
+        return map;
+    });
 }
 
 template IndexMap<VertexIndex> make_index_map(const Communicator&, const Sharing<VertexIndex>&,

@@ -1,7 +1,10 @@
 #include "sharing/vertex_sharing.hpp"
 
+#include <array>
+#include <cstdint>
 #include <map>
-#include <optional>
+#include <utility>
+#include <vector>
 
 #include "setup/sharers.hpp"
 #include "sharing/sharing_builder.hpp"
@@ -10,35 +13,29 @@ namespace octetra::distributed {
 
 Sharing<VertexIndex> find_vertex_sharing(const DistributedMesh& mesh,
                                          std::span<const std::uint8_t> may_be_shared) {
-    LocalFailure failure;
-    std::optional<Sharing<VertexIndex>> sharing;  // construction allocates, even of an empty one
-    std::optional<SharingBuilder<VertexIndex>> builder;
-    std::vector<std::array<std::uint64_t, 1>> keys;
-    std::vector<VertexIndex> vertex_of;
-    failure.attempt([&] {
-        builder.emplace(sharing.emplace(), mesh.processes.rank());
-        if (mesh.processes.size() == 1) return;
+    return mesh.processes.transaction([&] {
+        Sharing<VertexIndex> sharing;
+        SharingBuilder<VertexIndex> builder(sharing, mesh.processes.rank());
+        if (mesh.processes.size() == 1) return sharing;
+        std::vector<std::array<std::uint64_t, 1>> keys;
+        std::vector<VertexIndex> vertex_of;
         for (std::size_t v = 0; v < mesh.input_vertices.size(); ++v) {
             if (!may_be_shared.empty() && may_be_shared[v] == 0) continue;
             keys.push_back({static_cast<std::uint64_t>(mesh.input_vertices[v])});
             vertex_of.emplace_back(v);
         }
-    });
-    failure.agree(mesh.processes);
-    if (mesh.processes.size() == 1) return *std::move(sharing);
-    const auto sharers = find_sharers(mesh.processes, keys, failure);
-    failure.attempt([&] {
         // Ordered by key, so both sides list the vertices of a pair of ranks in the same order.
         std::map<int, std::vector<VertexIndex>> by_rank;
-        for (const Sharer& s : sharers) by_rank[s.rank].push_back(vertex_of[s.key]);
-        for (auto& [rank, vertices] : by_rank) builder->share(rank, std::move(vertices));
-        builder->prepare([&](VertexIndex v) {
+        for (const Sharer& s : find_sharers(mesh.processes, keys)) {
+            by_rank[s.rank].push_back(vertex_of[s.key]);
+        }
+        for (auto& [rank, vertices] : by_rank) builder.share(rank, std::move(vertices));
+        builder.prepare([&](VertexIndex v) {
             return static_cast<std::uint64_t>(mesh.input_vertices[v.value()]);
         });
+        builder.commit();
+        return sharing;
     });
-    failure.agree(mesh.processes);
-    builder->commit();
-    return *std::move(sharing);
 }
 
 }  // namespace octetra::distributed

@@ -9,7 +9,6 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/vertex_buckets.hpp>
 
-#include "comm/local_failure.hpp"
 #include "comm/value_kinds.hpp"
 
 namespace octetra::distributed {
@@ -177,10 +176,9 @@ void GhostLayer::exchange(const Communicator& processes, std::span<const std::by
                             own.data() + with.sent[k].value() * entry_size, entry_size);
             }
         }
-        LocalFailure none;
-        agree_on_kind(processes, none, kind);
+        agree_on_kind(processes, kind);
         const auto inboxes = processes.exchange_with(ranks, outboxes);
-        agree_on_sizes(processes, none, ranks, inboxes,
+        agree_on_sizes(processes, ranks, inboxes,
                        [&](std::size_t n) { return exchanges[n].received * entry_size; });
         for (const auto& inbox : inboxes) {
             if (!inbox.empty()) std::memcpy(ghosts, inbox.data(), inbox.size());

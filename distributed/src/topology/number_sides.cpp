@@ -5,7 +5,6 @@
 
 #include <octetra/core/error.hpp>
 
-#include "comm/local_failure.hpp"
 #include "numbering/ranked.hpp"
 #include "sharing/sharing_builder.hpp"
 
@@ -72,10 +71,8 @@ Sides<I, N, PerCell> number(const DistributedMesh& mesh, const CanonicalNumbers&
     number_locally(mesh, places, sides);
     // The local and global numbers of vertices have the same order, so sides are ascending by
     // either.
-    LocalFailure none;
-    (void)append_ranked<N>(sides.numbers, mesh.processes, sides.vertices, numbers.of_vertex,
-                           shared_vertices, numbers.vertex_count, sides.count, none);
-    none.agree(mesh.processes);
+    append_ranked<N>(sides.numbers, mesh.processes, sides.vertices, numbers.of_vertex,
+                     shared_vertices, numbers.vertex_count, sides.count);
     for (const Interface& interface : mesh.interfaces) {
         std::vector<I> shared;
         for (const auto& corners : shared_of(interface)) shared.push_back(find(sides, corners));

@@ -22,14 +22,14 @@ public:
 
     /// Calls `work`, unless something has failed. The error is not kept, because the process that
     /// reads the file alone afterwards reports it; only std::bad_alloc is kept.
-    void attempt(auto&& work) noexcept {
+    void attempt(auto&& work) {
         if (!has_succeeded_) return;
         try {
             work();
         } catch (const std::bad_alloc&) {
             has_succeeded_ = false;
             no_memory_ = std::current_exception();
-        } catch (...) {
+        } catch (const std::exception&) {  // the end of a transaction is none of these
             has_succeeded_ = false;
         }
     }

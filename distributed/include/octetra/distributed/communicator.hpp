@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -93,7 +94,6 @@ public:
     [[nodiscard]] std::vector<std::vector<T>> all_to_all(
         const std::vector<std::vector<T>>& to_each) const {
         static_assert(std::is_trivially_copyable_v<T>);
-        agree_on_success();
         std::vector<std::span<const std::byte>> bytes;
         std::vector<std::vector<T>> inboxes;
         try {
@@ -101,6 +101,7 @@ public:
             for (const auto& outbox : to_each) bytes.push_back(std::as_bytes(std::span(outbox)));
             inboxes.resize(static_cast<std::size_t>(size()));
         } catch (...) {
+            if (is_in_transaction()) throw;
             const auto nowhere = [](void*, std::size_t, std::size_t) -> std::byte* {
                 return nullptr;
             };
@@ -117,46 +118,46 @@ public:
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> exchange_with(
         std::span<const int> neighbours, const std::vector<std::vector<T>>& outboxes) const {
-        agree_on_success();
-        return exchange_after_agreement(neighbours, outboxes);
+        return send_and_receive<T>(neighbours, outboxes, neighbours, Agreement::yes);
     }
     /// As exchange_with(), without an agreement of its own, because a collective function, max()
-    /// for example, precedes it immediately.
+    /// for example, precedes it immediately. A process without memory sends empty messages.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> exchange_after_agreement(
         std::span<const int> neighbours, const std::vector<std::vector<T>>& outboxes) const {
-        return send_and_receive<T>(neighbours, outboxes, neighbours);
+        return send_and_receive<T>(neighbours, outboxes, neighbours, Agreement::no);
     }
 
     /// Point-to-point: one process sends and the other receives. Both block until the transfer is
     /// complete. Other processes are not involved, hence no agreement precedes it.
     template <class T>
     void send(const std::vector<T>& values, int receiver) const {
-        (void)send_and_receive<T>(std::span(&receiver, 1), std::span(&values, 1), {});
+        (void)send_and_receive<T>(std::span(&receiver, 1), std::span(&values, 1), {},
+                                  Agreement::no);
     }
     template <class T>
     [[nodiscard]] std::vector<T> receive(int sender) const {
-        return std::move(send_and_receive<T>({}, {}, std::span(&sender, 1)).front());
+        return std::move(send_and_receive<T>({}, {}, std::span(&sender, 1), Agreement::no).front());
     }
 
     /// Collective. Returns the values of each process, by rank, on the first process, and nothing
     /// on the others.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> gather(const std::vector<T>& values) const {
-        agree_on_success();
-        return send_and_receive<T>(every_rank().first(1), std::span(&values, 1), if_first());
+        return send_and_receive<T>(every_rank().first(1), std::span(&values, 1), if_first(),
+                                   Agreement::yes);
     }
 
     /// Collective. Returns on rank r the vector to_each[r] of the first process.
     template <class T>
     [[nodiscard]] std::vector<T> scatter(const std::vector<std::vector<T>>& to_each) const {
-        agree_on_success();
-        return std::move(send_and_receive<T>(if_first(), to_each, every_rank().first(1)).front());
+        return std::move(
+            send_and_receive<T>(if_first(), to_each, every_rank().first(1), Agreement::yes)
+                .front());
     }
 
     /// Collective within a transaction, where every collective function begins with it; otherwise
-    /// does nothing. Leaves the transaction if a process has failed. After it, the messages that
-    /// were received before are complete: a process without memory has sent none.
+    /// does nothing. Ends the work of the transaction if a process has failed.
     void agree_on_success() const;
 
     struct Mpi;  // wraps an MPI communicator; see octetra/distributed/mpi.hpp
@@ -166,6 +167,9 @@ public:
 
 private:
     using Allocate = std::byte* (*)(void* context, std::size_t i, std::size_t size);
+    /// Whether agree_on_success() precedes the messages. Memory for sending is allocated before,
+    /// so that after it every message is complete.
+    enum class Agreement : std::uint8_t { no, yes };
 
     /// Allocates inbox i of the inboxes that `context` points to.
     template <class T>
@@ -179,8 +183,9 @@ private:
         return is_first() ? every_rank() : std::span<const int>{};
     }
     void run_transaction(const std::function<void()>& work) const override;
-    /// Collective. The same, and the greatest of the numbers.
-    [[nodiscard]] std::uint64_t agreed_max(std::uint64_t number) const;
+    /// Collective within a transaction. The same reduction also returns the maxima of two numbers.
+    [[nodiscard]] std::array<std::uint64_t, 2> agreed_max(
+        std::array<std::uint64_t, 2> numbers) const;
     [[nodiscard]] std::size_t broadcast_size(std::size_t size) const;
     void broadcast_bytes(void* data, std::size_t size, int root) const;
     /// Sends outboxes[i] to rank receivers[i]; element i of the result was received from
@@ -188,7 +193,7 @@ private:
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> send_and_receive(
         std::span<const int> receivers, std::span<const std::vector<T>> outboxes,
-        std::span<const int> senders) const {
+        std::span<const int> senders, Agreement agreement) const {
         static_assert(std::is_trivially_copyable_v<T>);
         std::vector<std::span<const std::byte>> bytes;
         std::vector<std::vector<T>> inboxes;
@@ -199,17 +204,19 @@ private:
             }
             inboxes.resize(senders.size());
         } catch (...) {
-            exchange_empty_messages(receivers, senders);
+            if (agreement == Agreement::no || !is_in_transaction()) {
+                exchange_empty_messages(receivers, senders);
+            }
             throw;
         }
-        send_and_receive_bytes(receivers, bytes, senders, &allocate_inbox<T>, &inboxes);
+        send_and_receive_bytes(receivers, bytes, senders, agreement, &allocate_inbox<T>, &inboxes);
         return inboxes;
     }
     /// Throws what allocate() throws, once all messages are sent and received.
     void send_and_receive_bytes(std::span<const int> receivers,
                                 std::span<const std::span<const std::byte>> outboxes,
-                                std::span<const int> senders, Allocate allocate,
-                                void* context) const;
+                                std::span<const int> senders, Agreement agreement,
+                                Allocate allocate, void* context) const;
     /// Sends outboxes[r] to rank r unless it is empty, and writes the message received from rank r
     /// to allocate(context, r, size). Throws what allocate() throws, once the exchange is complete.
     void exchange_sparsely(std::span<const std::span<const std::byte>> outboxes, Allocate allocate,

@@ -189,8 +189,7 @@ std::vector<Case> odd_files() {
         {"an entity beside its count", medit(medit_points + "Tetrahedra\n1 1 2 3 4 7\nEnd\n"), true,
          false},
         {"sections on a line",
-         medit(replaced(medit_points, "\nDimension 3", " Dimension 3") + cells + "End\n"), true,
-         false},
+         medit(replaced(medit_points, "\nDimension 3", " Dimension 3") + cells + "End\n")},
         {"text behind the end", medit(medit_points + cells + "End\n1\n"), false, false},
         {"a keyword behind the end", medit(medit_points + cells + "End\nCorners 0\n"), false,
          false},
@@ -223,7 +222,8 @@ TEST(ReadTogether, OddFilesHaveTheOutcomeOfSerialReading) {
     for (const auto& cases : {odd_files(), odd_binary_files()}) {
         for (const Case& one : cases) {
             SCOPED_TRACE(one.name);
-            EXPECT_EQ(are_read_together(one.files), one.together);
+            const bool is_alone = test::world().size() == 1;  // it reads every form
+            EXPECT_EQ(are_read_together(one.files), one.together || (is_alone && one.is_mesh));
             EXPECT_EQ(expect_one_outcome(one.files), one.is_mesh);
         }
     }

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <octetra/core/process_group.hpp>
@@ -41,9 +44,13 @@ private:
 class ThreadGroup final : public ProcessGroup {
 public:
     struct Board {
-        explicit Board(int size) : barrier(size), outboxes(static_cast<std::size_t>(size)) {}
+        explicit Board(int size)
+            : barrier(size),
+              outboxes(static_cast<std::size_t>(size)),
+              failures(static_cast<std::size_t>(size)) {}
         Barrier barrier;
         std::vector<std::vector<Bytes>> outboxes;  ///< of each thread, to each
+        std::vector<std::exception_ptr> failures;  ///< of each thread, in a transaction
     };
 
     ThreadGroup(Board& board, int rank) : board_(&board), rank_(rank) {}
@@ -52,6 +59,8 @@ public:
     [[nodiscard]] int size() const override { return static_cast<int>(board_->outboxes.size()); }
 
     [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> to_each) const override {
+        if (is_in_transaction_ && !failure_) failure_ = agreed(nullptr);
+        if (failure_) throw OthersFailed();
         const auto own = static_cast<std::size_t>(rank_);
         board_->outboxes[own] = std::move(to_each);
         board_->barrier.wait();
@@ -62,8 +71,36 @@ public:
     }
 
 private:
+    struct OthersFailed {};
+
+    void run_transaction(const std::function<void()>& work) const override {
+        if (is_in_transaction_) return work();
+        is_in_transaction_ = true;
+        std::exception_ptr own;
+        try {
+            work();
+        } catch (const OthersFailed&) {
+        } catch (...) {
+            own = std::current_exception();
+        }
+        if (!failure_) failure_ = agreed(own);
+        is_in_transaction_ = false;
+        if (const auto failure = std::exchange(failure_, nullptr)) std::rethrow_exception(failure);
+    }
+    /// Collective. Returns the failure of the lowest thread that has failed, or null.
+    std::exception_ptr agreed(const std::exception_ptr& own) const {
+        board_->failures[static_cast<std::size_t>(rank_)] = own;
+        board_->barrier.wait();
+        const auto failed = std::ranges::find_if(board_->failures, [](auto& f) { return bool(f); });
+        const std::exception_ptr first = failed == board_->failures.end() ? nullptr : *failed;
+        board_->barrier.wait();
+        return first;
+    }
+
     Board* board_;
     int rank_;
+    mutable bool is_in_transaction_ = false;
+    mutable std::exception_ptr failure_;  ///< of the transaction, once known
 };
 
 /// Runs work(group) on this number of threads.

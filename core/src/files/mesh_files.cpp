@@ -13,12 +13,15 @@
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/output_paths.hpp>
 #include <octetra/core/files/sol_files.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
 #include "files/gmsh/gmsh.hpp"
+#include "files/input/growing_mesh.hpp"
 #include "files/medit/medit.hpp"
 #include "files/output/losses.hpp"
 #include "files/output/places.hpp"
+#include "files/stretches/readers.hpp"
 #include "files/tetgen/tetgen.hpp"
 #include "files/vtk/vtu.hpp"
 #include "files/xdmf/xdmf.hpp"
@@ -72,27 +75,73 @@ std::string_view hint_at_case(const fs::path& path) {
         path.native(), hint_at_case(path)));
 }
 
+/// Collective in the group of `growing`, which is a group of one process for Gmsh files. Performs
+/// semantic checks unless the options have only_syntax, which a sink and a share require.
+void read_into(GrowingMesh& growing, const fs::path& path, const ReadOptions& options) {
+    switch (format_of(path)) {
+        case Format::tetgen: return read_tetgen(path, options, growing);
+        case Format::medit: return read_medit(path, options, growing);
+        case Format::meshb: return read_meshb(path, options, growing);
+        case Format::gmsh: return read_gmsh(path, options, growing);
+        default: refuse_to_read(path);
+    }
+}
+
+/// The formats other than TetGen's have a marker for each entity, 0 for none.
+bool zeros_are_none(const fs::path& path) { return format_of(path) != Format::tetgen; }
+
+template <class I, std::size_t N>
+void refuse_repeated_vertices(const IndexVector<I, std::array<VertexIndex, N>>& list) {
+    for (const auto& vertices : list) {
+        bool repeated = false;
+        for (std::size_t k = 0; k < N; ++k) {
+            for (std::size_t j = 0; j < k; ++j) repeated |= vertices[j] == vertices[k];
+        }
+        if (repeated) throw InputError("the same vertex twice");
+    }
+}
+
+/// Collective. As read_mesh_share(), but throws.
+MeshShare read_share(const fs::path& path, const ProcessGroup& group) {
+    std::vector<std::string> notes;
+    const auto note = [&](const std::string& text) { notes.push_back(text); };
+    GrowingMesh growing(zeros_are_none(path), group);
+    read_into(growing, path, {.only_syntax = true, .note = note});
+    refuse_repeated_vertices(growing.mesh.cells);
+    refuse_repeated_vertices(growing.mesh.facets);
+    refuse_repeated_vertices(growing.mesh.edges);
+    MeshShare share = growing.finish();
+    share.notes = std::move(notes);
+    return share;
+}
+
 }  // namespace
 
 Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
     const StandardArithmetic standard;
-    const Format format = format_of(path);
-    if (format == Format::tetgen) return read_tetgen(path, options);
-    if (format == Format::medit) return read_medit(path, options);
-    if (format == Format::meshb) return read_meshb(path, options);
-    if (format == Format::gmsh) return read_gmsh(path, options);
-    refuse_to_read(path);
+    GrowingMesh growing(zeros_are_none(path));
+    read_into(growing, path, options);
+    Mesh mesh = growing.finish().lists;
+    for (const Feature feature : all_features) sort_unique(mesh.features[feature]);
+    return mesh;
 }
 
 void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& options) {
     const StandardArithmetic standard;
-    const ReadOptions as_it_stands{.only_syntax = true, .note = options.note};
-    const Format format = format_of(path);
-    if (format == Format::tetgen) return stream_tetgen(path, sink, as_it_stands);
-    if (format == Format::medit) return stream_medit(path, sink, as_it_stands);
-    if (format == Format::meshb) return stream_meshb(path, sink, as_it_stands);
-    if (format == Format::gmsh) return stream_gmsh(path, sink, as_it_stands);
-    refuse_to_read(path);
+    GrowingMesh growing(zeros_are_none(path), sink);
+    read_into(growing, path, {.only_syntax = true, .note = options.note});
+    growing.finish_sink();
+}
+
+std::optional<MeshShare> read_mesh_share(const fs::path& path, const ProcessGroup& group) {
+    const StandardArithmetic standard;
+    if (format_of(path) == Format::gmsh) return read_gmsh_share(path, group);
+    try {
+        return group.transaction([&] { return read_share(path, group); });
+    } catch (const InputError&) {
+    } catch (const SystemError&) {
+    }
+    return std::nullopt;
 }
 
 namespace {

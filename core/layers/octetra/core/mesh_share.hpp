@@ -28,15 +28,15 @@ struct MeshShare {
     std::vector<std::string> notes;
 };
 
-/// Collective. Reads a mesh; every process reads an even share of the bytes of each file. Performs
-/// the checks of read_mesh() that need only a line or row and the counts: syntax, counts, number
-/// ranges, and that the vertices of an entity are distinct. The caller performs the others:
-/// orientation, repeated cells, tagged facets and edges.
+/// Collective; not to be called within a transaction. Reads a mesh; every process reads an even
+/// share of the bytes of each file. Performs the checks of read_mesh() that need only a line or row
+/// and the counts: syntax, counts, number ranges, and that the vertices of an entity are distinct.
+/// The caller performs the others: orientation, repeated cells, tagged facets and edges.
 ///
 /// Returns nothing on all processes if a check fails, a file cannot be read, or its format is not
 /// suitable; text formats require one entity on each line. read_mesh() then reports the error. If a
-/// process is out of memory, it throws std::bad_alloc and the others return nothing: the caller
-/// must inform them.
+/// process is out of memory, it throws std::bad_alloc and the others throw it or return nothing:
+/// the caller must inform them.
 [[nodiscard]] std::optional<MeshShare> read_mesh_share(const std::filesystem::path& path,
                                                        const ProcessGroup& group);
 

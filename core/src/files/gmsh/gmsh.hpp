@@ -4,21 +4,19 @@
 #include <string>
 
 #include <octetra/core/files/mesh_files.hpp>
-#include <octetra/core/files/mesh_sink.hpp>
-#include <octetra/core/mesh.hpp>
 #include <octetra/core/mesh_source.hpp>
+
+#include "files/input/growing_mesh.hpp"
 
 /// Gmsh's format `.msh`, versions 2 to 2.2 and 4.1, text and binary: sections `$Name` ...
 /// `$EndName`. Nodes have tags, which need not be consecutive; elements belong to entities of the
 /// geometry, and these to physical groups, whose tags become markers and region tags.
 namespace octetra {
 
-[[nodiscard]] Mesh read_gmsh(const std::filesystem::path& path, const ReadOptions& options);
-
-/// Performs no semantic checks; `options` must have only_syntax. Reads the file twice, because
-/// elements of all kinds are counted together, but a sink must know the number of each kind in
-/// advance.
-void stream_gmsh(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
+/// Reads a mesh. Performs semantic checks unless the options have only_syntax, which a sink
+/// requires. For a sink, reads the file twice, because elements of all kinds are counted together,
+/// but a sink must know the number of each kind in advance.
+void read_gmsh(const std::filesystem::path& path, const ReadOptions& options, GrowingMesh& growing);
 
 /// Collective. The tag of an element is its position in the file. There is an entity for each
 /// marker of a kind, and a block for each run of elements with the same entity, so the order of the

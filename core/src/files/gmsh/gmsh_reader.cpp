@@ -1,6 +1,5 @@
 #include <optional>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -115,22 +114,18 @@ ElementCounts read_file(const fs::path& path, const ReadOptions& options, Growin
     if (counts && found != *counts) {
         throw InputError(fmt::format("{}: the file has changed while it was read", path.native()));
     }
-    growing.finish();
     return found;
 }
 
 }  // namespace
 
-Mesh read_gmsh(const fs::path& path, const ReadOptions& options) {
-    GrowingMesh growing(nullptr, true);
-    (void)read_file(path, options, growing, std::nullopt);
-    return std::move(growing.mesh);
-}
-
-void stream_gmsh(const fs::path& path, MeshSink& sink, const ReadOptions& options) {
-    GrowingMesh counted(&sink, true, Streamed::nothing);
-    const ElementCounts counts = read_file(path, {.only_syntax = true}, counted, std::nullopt);
-    GrowingMesh growing(&sink, true);
+void read_gmsh(const fs::path& path, const ReadOptions& options, GrowingMesh& growing) {
+    std::optional<ElementCounts> counts;
+    if (growing.is_streaming()) {
+        GrowingMesh counted(true, *growing.sink());
+        counted.stream_only(Streamed::nothing);
+        counts = read_file(path, {.only_syntax = true}, counted, std::nullopt);
+    }
     (void)read_file(path, options, growing, counts);
 }
 

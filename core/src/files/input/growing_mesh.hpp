@@ -7,6 +7,8 @@
 
 #include <octetra/core/files/mesh_sink.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/mesh_share.hpp>
+#include <octetra/core/process_group.hpp>
 
 namespace octetra {
 
@@ -44,18 +46,28 @@ inline constexpr EntityKind<EdgeIndex, 2> edge_kind{&Mesh::edges,
 /// The entities that are passed to the sink. Others are counted and dropped.
 enum class Streamed { everything, points, all_but_points, nothing };
 
-/// The target of a parser, filled entity by entity: a whole mesh or, with a sink, one block at a
-/// time, which is passed to the sink when it is full, and then dropped.
+/// The target of a parser, filled entity by entity: a whole mesh; the share of one process of a
+/// group; or, with a sink, one block at a time, which is passed to the sink when it is full, and
+/// then dropped.
 class GrowingMesh {
 public:
     /// `zeros_are_none`: if all markers are 0, the file has no markers.
-    GrowingMesh(MeshSink* sink, bool zeros_are_none, Streamed streamed = Streamed::everything)
-        : sink_(sink), zeros_are_none_(zeros_are_none), streamed_(streamed) {}
+    explicit GrowingMesh(bool zeros_are_none, const ProcessGroup& group = ProcessGroup::alone())
+        : zeros_are_none_(zeros_are_none), group_(&group) {}
+    GrowingMesh(bool zeros_are_none, MeshSink& sink)
+        : sink_(&sink), zeros_are_none_(zeros_are_none) {}
 
     /// The parser appends here, and calls the ..._complete() functions afterwards.
     Mesh mesh;
 
-    void expect_points(std::uint64_t count, std::size_t attributes, bool has_markers);
+    /// The group that reads the mesh. If it has several processes, each reads a share of the
+    /// entities; counts are those of the whole mesh.
+    [[nodiscard]] const ProcessGroup& group() const { return *group_; }
+    [[nodiscard]] bool is_share() const { return group_->size() > 1; }
+
+    /// `room`: the number of points for which memory is reserved, if fewer than `count`.
+    void expect_points(std::uint64_t count, std::size_t attributes, bool has_markers,
+                       std::uint64_t room = no_end);
     void point_complete() {
         if (mesh.points.size() == points_per_block_) flush_points();
     }
@@ -67,7 +79,8 @@ public:
     void points_complete() { flush_points(); }
 
     template <class I, std::size_t N>
-    void expect(const EntityKind<I, N>& kind, std::uint64_t count, bool has_markers);
+    void expect(const EntityKind<I, N>& kind, std::uint64_t count, bool has_markers,
+                std::uint64_t room = no_end);
     template <class I, std::size_t N>
     void entity_complete(const EntityKind<I, N>& kind) {
         if ((mesh.*kind.list).size() == entities_per_block_) flush(kind);
@@ -86,9 +99,14 @@ public:
     void stream_only(Streamed streamed) { streamed_ = streamed; }
     [[nodiscard]] Streamed streamed() const { return streamed_; }
 
-    /// To be called after successful parsing: drops markers that do not count, or finishes the
-    /// sink.
-    void finish();
+    /// Announces the entities with a feature, whose numbers are not passed to a sink.
+    void expect_numbers(Feature feature, std::uint64_t count, std::uint64_t room = no_end);
+
+    /// To be called after successful parsing if a sink takes the mesh.
+    void finish_sink();
+    /// Collective. To be called after successful parsing otherwise: returns what this process has
+    /// read, without markers that do not count.
+    [[nodiscard]] MeshShare finish();
 
     [[nodiscard]] MeshSink* sink() const { return sink_; }
     [[nodiscard]] bool is_streaming() const { return sink_ != nullptr; }
@@ -104,15 +122,14 @@ private:
     [[nodiscard]] bool streams_others() const {
         return streamed_ == Streamed::everything || streamed_ == Streamed::all_but_points;
     }
-    /// Returns whether the file has markers, given all of them so far.
-    [[nodiscard]] bool is_significant(const std::vector<Marker>& markers) const;
     void flush_points();
     template <class I, std::size_t N>
     void flush(const EntityKind<I, N>& kind);
 
-    MeshSink* sink_;
+    MeshSink* sink_ = nullptr;
     bool zeros_are_none_;
-    Streamed streamed_;
+    const ProcessGroup* group_ = &ProcessGroup::alone();
+    Streamed streamed_ = Streamed::everything;
     std::size_t points_per_block_ = no_end;
     std::size_t entities_per_block_ = no_end;
     MeshFacts facts_;

@@ -60,6 +60,15 @@ void LineReader::open() {
     file_size_ = static_cast<std::uint64_t>(status.st_size);
 }
 
+void LineReader::seek(std::uint64_t begin, std::uint64_t end, std::uint64_t lines_before) {
+    (void)::lseek(file_, static_cast<off_t>(begin), SEEK_SET);
+    left_ = end - begin;
+    buffer_position_ = begin;
+    begin_ = end_ = comment_ = 0;
+    at_end_of_file_ = false;
+    line_number_ = lines_before;
+}
+
 LineReader::~LineReader() { ::close(file_); }
 
 bool LineReader::next() {

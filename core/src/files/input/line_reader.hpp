@@ -21,6 +21,9 @@ public:
     /// Reads only the bytes begin .. end - 1 of the file, which must be whole lines. Line numbers
     /// count from `begin`.
     LineReader(std::filesystem::path path, std::uint64_t begin, std::uint64_t end);
+    /// Continues with the bytes begin .. end - 1 of the file, which must be whole lines, after this
+    /// number of lines.
+    void seek(std::uint64_t begin, std::uint64_t end, std::uint64_t lines_before);
     ~LineReader();
     LineReader(const LineReader&) = delete;
     LineReader& operator=(const LineReader&) = delete;

@@ -15,6 +15,14 @@ class Tokens {
 public:
     explicit Tokens(LineReader& reader) : reader_(&reader), fields_(reader, {}) {}
 
+    /// Moves to the line of the next token. Returns false at the end of the file.
+    bool advance() {
+        if (!fields_.at_end()) return true;
+        if (!reader_->next()) return false;
+        fields_ = Fields(*reader_);
+        return true;
+    }
+
     /// Returns the next token verbatim; empty at the end of the file.
     std::string_view text() { return advance() ? fields_.text() : std::string_view{}; }
     std::uint64_t unsigned_integer(std::string_view what) {
@@ -44,13 +52,6 @@ public:
     void skip_line() { fields_ = Fields(*reader_, {}); }
 
 private:
-    bool advance() {
-        if (!fields_.at_end()) return true;
-        if (!reader_->next()) return false;
-        fields_ = Fields(*reader_);
-        return true;
-    }
-
     LineReader* reader_;
     Fields fields_;
 };

@@ -6,21 +6,21 @@
 #include <string_view>
 
 #include <octetra/core/files/mesh_files.hpp>
-#include <octetra/core/files/mesh_sink.hpp>
-#include <octetra/core/mesh.hpp>
 #include <octetra/core/mesh_source.hpp>
+
+#include "files/input/growing_mesh.hpp"
 
 /// Medit's format, as text `.mesh` and binary `.meshb`. The text consists of free-form tokens: a
 /// keyword, a count, and that many entries, each ending in a reference number (marker or region
 /// tag). Entities are numbered from 1. meshb_layout.hpp describes the binary files.
 namespace octetra {
 
-[[nodiscard]] Mesh read_medit(const std::filesystem::path& path, const ReadOptions& options);
-[[nodiscard]] Mesh read_meshb(const std::filesystem::path& path, const ReadOptions& options);
-
-/// Perform no semantic checks; `options` must have only_syntax.
-void stream_medit(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
-void stream_meshb(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
+/// Collective in the group of `growing`. Reads a mesh. Performs semantic checks unless the options
+/// have only_syntax, which a sink and a share require.
+void read_medit(const std::filesystem::path& path, const ReadOptions& options,
+                GrowingMesh& growing);
+void read_meshb(const std::filesystem::path& path, const ReadOptions& options,
+                GrowingMesh& growing);
 
 /// Returns the note on a section that is skipped.
 [[nodiscard]] std::string note_on_skipped(const std::filesystem::path& path, std::uint64_t line,

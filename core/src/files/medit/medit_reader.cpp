@@ -18,6 +18,7 @@
 #include "files/medit/keywords.hpp"
 #include "files/medit/medit.hpp"
 #include "files/medit/medit_head.hpp"
+#include "files/medit/medit_text.hpp"
 
 namespace octetra {
 namespace {
@@ -46,15 +47,12 @@ struct FeatureSection {
 
 class MeditReader final : private EntryPositions {
 public:
-    /// If `sink` is null, reads the mesh into memory.
-    MeditReader(const std::filesystem::path& path, const ReadOptions& options, MeshSink* sink,
-                Streamed streamed = Streamed::everything)
-        : reader_(path), tokens_(reader_), options_(&options), growing_(sink, true, streamed) {
+    MeditReader(const std::filesystem::path& path, const ReadOptions& options, GrowingMesh& growing)
+        : text_(path, growing.group()), options_(&options), growing_(growing) {
         mesh_.index_base = 1;
     }
 
-    /// Returns the mesh unless it is streamed.
-    Mesh read() {
+    void read() {
         take_medit_head(tokens_, reader_);
         while (read_section()) {
         }
@@ -62,13 +60,13 @@ public:
             for (const Listed list : {Listed::cells, Listed::facets, Listed::edges}) {
                 check_streamed(list);
             }
+        } else if (growing_.is_share()) {
+            check_share();
         } else {
             check_listed(mesh_, *options_, reader_.path(), *this,
                          tetrahedra_.largest <= mesh_.points.size());
         }
         for (const Feature feature : all_features) finish_feature(feature);
-        growing_.finish();
-        return std::move(mesh_);
     }
 
     /// Reads the whole file, passes only points to the sink, and returns their number.
@@ -123,9 +121,13 @@ private:
         if (skipped != skipped_sections.end()) {
             const std::uint64_t count = tokens_.unsigned_integer("the number of entries");
             reader_.check_count(count, skipped->numbers_per_entry, "entries");
-            for (std::uint64_t i = 0; i < count * skipped->numbers_per_entry; ++i) {
-                (void)tokens_.real("a number of this section");
-            }
+            text_.read_entries(
+                count, [](std::uint64_t) {},
+                [&] {
+                    for (std::size_t i = 0; i < skipped->numbers_per_entry; ++i) {
+                        (void)tokens_.real("a number of this section");
+                    }
+                });
             if (count > 0) {
                 options_->note(note_on_skipped(reader_.path(), line, count, keyword));
             }
@@ -169,9 +171,8 @@ private:
         const std::uint64_t count = tokens_.unsigned_integer("the number of entries");
         reader_.check_count(count, 1, "entries");
         std::vector<std::uint64_t>& numbers = mesh_.features[feature];
-        if (!growing_.is_streaming()) numbers.reserve(count);
         const std::string_view name = numbered_by(feature, {}).name;
-        for (std::uint64_t i = 0; i < count; ++i) {
+        const auto read_number = [&] {
             const std::uint64_t number = tokens_.unsigned_integer("a number");
             if (number == 0 || number > VertexIndex::limit) {
                 reader_.fail(fmt::format("there is no {} {}", name, number));
@@ -181,7 +182,10 @@ private:
                 section.largest_line = reader_.line_number();
             }
             if (!growing_.is_streaming()) numbers.push_back(number - 1);
-        }
+        };
+        text_.read_entries(
+            count, [&](std::uint64_t room) { growing_.expect_numbers(feature, count, room); },
+            read_number);
     }
 
     /// Checks the numbers of a feature at the end, since the section that they refer to may follow.
@@ -191,7 +195,6 @@ private:
         if (largest > numbered.count) {
             reader_.fail(no_such_entity(numbered, static_cast<std::int64_t>(largest)), line);
         }
-        sort_unique(mesh_.features[feature]);
     }
 
     /// Reads the count of a section and its entries, calling read_entry() for each.
@@ -204,25 +207,29 @@ private:
         }
         const std::uint64_t count = tokens_.unsigned_integer("the number of entries");
         reader_.check_count(count, field_count, name);
-        expect(count);
-        for (std::uint64_t i = 0; i < count; ++i) {
-            read_entry([&] {
-                if (section.first_line == 0) section.first_line = reader_.line_number();
-                if (reader_.line_number() != section.first_line + i) section.consecutive = false;
+        std::uint64_t i = 0;
+        const auto started = [&] {
+            if (section.first_line == 0) section.first_line = reader_.line_number();
+            if (reader_.line_number() != section.first_line + i) section.consecutive = false;
+        };
+        text_.read_entries(
+            count, [&](std::uint64_t room) { expect(count, room); },
+            [&] {
+                read_entry(started);
+                ++i;
             });
-        }
         return section;
     }
 
     void read_vertices() {
         vertices_ = read_entries(
             vertices_, 4, "vertices",
-            [&](std::uint64_t count) {
+            [&](std::uint64_t count, std::uint64_t room) {
                 if (vertices_ahead_ && *vertices_ahead_ != count) {
                     reader_.fail("the file has changed while it was read");
                 }
                 if (growing_.is_streaming()) streamed_vertices_ = VertexIndex{count};
-                growing_.expect_points(count, 0, true);
+                growing_.expect_points(count, 0, true, room);
             },
             [&](auto&& started) {
                 const double x = tokens_.coordinate("x");
@@ -244,9 +251,9 @@ private:
         std::uint64_t largest = 0;
         section = read_entries(
             section, N + 1, name,
-            [&](std::uint64_t count) {
+            [&](std::uint64_t count, std::uint64_t room) {
                 if (growing_.is_streaming()) stream_points_first();
-                growing_.expect(kind, count, true);
+                growing_.expect(kind, count, true, room);
             },
             [&](auto&& started) {
                 const auto vertices = taken_in_order<N>([&] {
@@ -285,8 +292,9 @@ private:
     void stream_points_first() {
         if (vertices_.keyword_line != 0 || growing_.streamed() != Streamed::everything) return;
         const ReadOptions quiet{.only_syntax = true};
-        MeditReader ahead(reader_.path(), quiet, growing_.sink(), Streamed::points);
-        vertices_ahead_ = ahead.read_points();
+        GrowingMesh points(true, *growing_.sink());
+        points.stream_only(Streamed::points);
+        vertices_ahead_ = MeditReader(reader_.path(), quiet, points).read_points();
         streamed_vertices_ = VertexIndex{*vertices_ahead_};
         growing_.stream_only(Streamed::all_but_points);
     }
@@ -301,6 +309,12 @@ private:
         const auto& [entry, vertex] = *section.out_of_range;
         fail_entry(list, entry,
                    no_such_vertex(std::int64_t{vertex.value()} + 1, growing_.facts().vertices));
+    }
+
+    void check_share() const {
+        const std::uint64_t largest =
+            std::max({tetrahedra_.largest, triangles_.largest, edges_.largest});
+        if (largest > growing_.facts().vertices) reader_.fail("there is no such vertex");
     }
 
     [[nodiscard]] const SectionOfText& section_of(Listed list) const {
@@ -327,11 +341,12 @@ private:
         };
     }
 
-    LineReader reader_;
-    Tokens tokens_;
+    MeditText text_;
+    LineReader& reader_ = text_.reader();
+    Tokens& tokens_ = text_.tokens();
     std::string keyword_ahead_;  ///< keyword of the next section, if already read
     const ReadOptions* options_;
-    GrowingMesh growing_;
+    GrowingMesh& growing_;
     Mesh& mesh_ = growing_.mesh;
     /// The number of vertices, while streaming, once known; otherwise greater than any vertex
     /// number.
@@ -361,12 +376,9 @@ std::string note_on_missing_end(const std::filesystem::path& path) {
     return fmt::format("{}: the file ends without the keyword End: was it cut off?", path.native());
 }
 
-Mesh read_medit(const std::filesystem::path& path, const ReadOptions& options) {
-    return MeditReader(path, options, nullptr).read();
-}
-
-void stream_medit(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options) {
-    (void)MeditReader(path, options, &sink).read();
+void read_medit(const std::filesystem::path& path, const ReadOptions& options,
+                GrowingMesh& growing) {
+    MeditReader(path, options, growing).read();
 }
 
 }  // namespace octetra

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include "files/input/byte_reader.hpp"
@@ -10,26 +9,26 @@
 #include "files/medit/medit.hpp"
 #include "files/medit/meshb_layout.hpp"
 #include "files/medit/meshb_rows.hpp"
+#include "files/stretches/shares.hpp"
 
 namespace octetra {
 namespace {
 
 /// Reads the sections in file order, except that vertices are read first, because entities that
-/// refer to them are checked as they are read.
+/// refer to them are checked as they are read. If several processes read the file, each reads its
+/// share of the rows of each section.
 class MeshbReader final : private EntryPositions {
 public:
-    /// If `sink` is null, reads the mesh into memory.
-    MeshbReader(const std::filesystem::path& path, const ReadOptions& options, MeshSink* sink)
+    MeshbReader(const std::filesystem::path& path, const ReadOptions& options, GrowingMesh& growing)
         : reader_(path),
           layout_(read_meshb_layout(reader_)),
           rows_(reader_, layout_.lists),
           options_(&options),
-          growing_(sink, true) {
-        growing_.mesh.index_base = 1;
+          growing_(&growing) {
+        growing.mesh.index_base = 1;
     }
 
-    /// Returns the mesh unless it is streamed.
-    Mesh read() {
+    void read() {
         for (const std::string& note :
              notes_on(reader_.path(), layout_.lists.has_end, layout_.skipped)) {
             options_->note(note);
@@ -39,24 +38,23 @@ public:
         std::ranges::sort(lists, {}, [&](Listed list) { return rows_.section(list).keyword_at; });
         for (const Listed list : lists) read_list(list);
         for (const Feature feature : all_features) read_feature(feature);
-        if (!growing_.is_streaming()) {
-            check_listed(growing_.mesh, *options_, reader_.path(), *this, true);
+        if (!options_->only_syntax) {
+            check_listed(growing_->mesh, *options_, reader_.path(), *this, true);
         }
-        growing_.finish();
-        return std::move(growing_.mesh);
     }
 
 private:
     void read_points() {
         const std::uint64_t count = layout_.lists.vertices.count;
-        growing_.expect_points(count, 0, true);
-        for (std::uint64_t done = 0; done < count;) {
-            const auto some = std::min<std::uint64_t>(count - done, growing_.room_for_points());
-            rows_.append_points(done, some, growing_.mesh);
-            growing_.point_complete();
+        const auto [first, rows] = share_of_rows(count, growing_->group());
+        growing_->expect_points(count, 0, true, rows);
+        for (std::uint64_t done = 0; done < rows;) {
+            const auto some = std::min<std::uint64_t>(rows - done, growing_->room_for_points());
+            rows_.append_points(first + done, some, growing_->mesh);
+            growing_->point_complete();
             done += some;
         }
-        growing_.points_complete();
+        growing_->points_complete();
     }
 
     void read_list(Listed list) {
@@ -71,25 +69,27 @@ private:
 
     template <class I, std::size_t N>
     void read_entities(const EntityKind<I, N>& kind, std::uint64_t count) {
-        growing_.expect(kind, count, true);
-        for (std::uint64_t done = 0; done < count;) {
-            const auto some = std::min<std::uint64_t>(count - done, growing_.room_for(kind));
-            rows_.append(kind, done, some, growing_.mesh);
-            growing_.entity_complete(kind);
+        const auto [first, rows] = share_of_rows(count, growing_->group());
+        growing_->expect(kind, count, true, rows);
+        for (std::uint64_t done = 0; done < rows;) {
+            const auto some = std::min<std::uint64_t>(rows - done, growing_->room_for(kind));
+            rows_.append(kind, first + done, some, growing_->mesh);
+            growing_->entity_complete(kind);
             done += some;
         }
-        growing_.all_complete(kind);
+        growing_->all_complete(kind);
     }
 
     void read_feature(Feature feature) {
         constexpr std::uint64_t at_once = 16384;
         const std::uint64_t count = layout_.lists.features[feature].count;
-        std::vector<std::uint64_t>& numbers = growing_.mesh.features[feature];
-        for (std::uint64_t done = 0; done < count; done += at_once) {
-            rows_.append_numbers(feature, done, std::min(count - done, at_once), numbers);
-            if (growing_.is_streaming()) numbers.clear();
+        const auto [first, rows] = share_of_rows(count, growing_->group());
+        growing_->expect_numbers(feature, count, rows);
+        std::vector<std::uint64_t>& numbers = growing_->mesh.features[feature];
+        for (std::uint64_t done = 0; done < rows; done += at_once) {
+            rows_.append_numbers(feature, first + done, std::min(rows - done, at_once), numbers);
+            if (growing_->is_streaming()) numbers.clear();
         }
-        sort_unique(numbers);
     }
 
     [[noreturn]] void fail_entry(Listed list, std::uint64_t entry,
@@ -104,17 +104,14 @@ private:
     MeshbLayout layout_;
     MeshbRows rows_;
     const ReadOptions* options_;
-    GrowingMesh growing_;
+    GrowingMesh* growing_;
 };
 
 }  // namespace
 
-Mesh read_meshb(const std::filesystem::path& path, const ReadOptions& options) {
-    return MeshbReader(path, options, nullptr).read();
-}
-
-void stream_meshb(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options) {
-    (void)MeshbReader(path, options, &sink).read();
+void read_meshb(const std::filesystem::path& path, const ReadOptions& options,
+                GrowingMesh& growing) {
+    MeshbReader(path, options, growing).read();
 }
 
 }  // namespace octetra

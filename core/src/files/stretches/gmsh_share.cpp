@@ -16,6 +16,7 @@
 #include "files/gmsh/sections_2.hpp"
 #include "files/gmsh/sections_4.hpp"
 #include "files/input/fields.hpp"
+#include "files/input/finish_share.hpp"
 #include "files/stretches/gmsh_blocks.hpp"
 #include "files/stretches/gmsh_line_input.hpp"
 #include "files/stretches/gmsh_listed_again.hpp"
@@ -308,16 +309,14 @@ private:
         if (!status_->all_succeeded()) return false;
         MeshFacts counts;
         counts.vertices = node_count_;
-        return number(cell_kind, counts, share_.first_cell) &&
-               number(facet_kind, counts, share_.first_facet) &&
-               number(edge_kind, counts, share_.first_edge) && add_notes() && settle(counts);
+        return number(cell_kind, counts) && number(facet_kind, counts) &&
+               number(edge_kind, counts) && add_notes() && settle(counts);
     }
 
     template <class I, std::size_t N>
-    bool number(const EntityKind<I, N>& kind, MeshFacts& counts, std::uint64_t& first) {
+    bool number(const EntityKind<I, N>& kind, MeshFacts& counts) {
         auto& list = share_.lists.*kind.list;
         counts.*kind.count = group().sum(list.size());
-        first = group().sum_before(list.size());
         return node_tags_->number(*status_, list);
     }
 
@@ -340,7 +339,8 @@ private:
         if (!error_without_cells(counts.cells, counts.facets, intake_.ignored).empty()) {
             return false;  // the first process reports the position
         }
-        set_common_facts(counts, group(), share_);
+        share_.lists.index_base = 1;
+        finish_share(counts, true, group(), share_);
         status_->attempt([&] { share_.facts.group_names = SharedGroupNames(std::move(names_)); });
         return status_->all_succeeded();
     }

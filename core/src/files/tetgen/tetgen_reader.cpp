@@ -1,7 +1,7 @@
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,6 +14,8 @@
 #include "files/input/fields.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/input/line_reader.hpp"
+#include "files/stretches/readers.hpp"
+#include "files/stretches/shares.hpp"
 #include "files/tetgen/lines.hpp"
 #include "files/tetgen/tetgen.hpp"
 
@@ -23,31 +25,74 @@ namespace {
 namespace fs = std::filesystem;
 using namespace tetgen;
 
-/// Reads the rest of the file: `count` lines, each with its number and the fields read by
-/// read_entry(fields), `field_count` fields in total; calls complete() after each. Returns the
-/// number of the first entry: 0 or 1.
-std::uint32_t read_entries(LineReader& reader, std::uint64_t count, std::size_t field_count,
-                           std::optional<std::uint32_t> index_base, auto&& read_entry,
-                           auto&& complete) {
-    std::uint32_t first = index_base.value_or(0);
-    for (std::uint64_t i = 0; i < count; ++i) {
-        if (!reader.next()) {
-            reader.fail(fmt::format("the file ends after {} of {} entries", i, count));
-        }
-        Fields fields(reader);
-        const std::uint64_t number = fields.unsigned_integer("the entry's number");
-        if (i == 0 && !index_base && number == 1) first = 1;
-        if (number != i + first) {
-            reader.fail(fmt::format("entry number {} expected, {} found{}", i + first, number,
-                                    i == 0 && !index_base ? "; numbering begins with 0 or 1" : ""));
-        }
-        read_entry(fields);
-        fields.expect_end(field_count);
-        complete();
+/// The entries of a file that this process reads: all lines after the header or, if several
+/// processes read the file, its share of them.
+class Entries {
+public:
+    /// `reader`: on the header line, which announces `count` entries; it must outlive the object.
+    Entries(LineReader& reader, std::uint64_t count, const ProcessGroup& group)
+        : reader_(&reader), count_(count), room_(count), group_(&group) {
+        if (!is_share()) return;
+        const FileRange lines{reader.next_position(), reader.file_size()};
+        const FileRange share = share_of_lines(reader.path(), lines, group.rank(), group.size());
+        room_ = room_for(count, share, lines);
+        reader.seek(share.begin, share.end, 0);
     }
-    if (reader.next()) reader.fail(fmt::format("more lines than the {} entries announced", count));
-    return first;
-}
+
+    /// The number of entries to make room for.
+    [[nodiscard]] std::uint64_t room() const { return room_; }
+
+    /// Collective. Reads the entries, each with its number and the fields read by
+    /// read_entry(fields), `field_count` fields in total; calls complete() after each. Returns the
+    /// number of the first entry of the file, 0 or 1: `index_base`, if that is known.
+    [[nodiscard]] std::uint32_t read(std::size_t field_count,
+                                     std::optional<std::uint32_t> index_base, auto&& read_entry,
+                                     auto&& complete) {
+        std::uint64_t first = index_base.value_or(0);
+        std::uint64_t i = 0;
+        for (; reader_->next(); ++i) {
+            if (i == count_) {
+                reader_->fail(fmt::format("more lines than the {} entries announced", count_));
+            }
+            Fields fields(*reader_);
+            const std::uint64_t number = fields.unsigned_integer("the entry's number");
+            if (i == 0 && (is_share() || (!index_base && number == 1))) first = number;
+            if (number != i + first) {
+                reader_->fail(
+                    fmt::format("entry number {} expected, {} found{}", i + first, number,
+                                i == 0 && !index_base ? "; numbering begins with 0 or 1" : ""));
+            }
+            read_entry(fields);
+            fields.expect_end(field_count);
+            complete();
+        }
+        if (is_share()) return common_base(i, first, index_base);
+        if (i < count_) {
+            reader_->fail(fmt::format("the file ends after {} of {} entries", i, count_));
+        }
+        return static_cast<std::uint32_t>(first);
+    }
+
+private:
+    [[nodiscard]] bool is_share() const { return group_->size() > 1; }
+    /// Collective. Returns the number of the first entry of the file. Throws unless the numbers of
+    /// this process, which are consecutive and begin with `first`, continue those of lower ranks.
+    [[nodiscard]] std::uint32_t common_base(std::uint64_t read, std::uint64_t first,
+                                            std::optional<std::uint32_t> index_base) const {
+        const std::uint64_t before = number_share(*group_, read, count_);
+        const std::uint64_t found = group_->sum(before == 0 && read > 0 ? first : 0);
+        const std::uint64_t base = index_base.value_or(static_cast<std::uint32_t>(found));
+        if (found > 1 || (read > 0 && first != before + base)) {
+            reader_->fail("the entries are not numbered consecutively from 0 or 1");
+        }
+        return static_cast<std::uint32_t>(base);
+    }
+
+    LineReader* reader_;
+    std::uint64_t count_;
+    std::uint64_t room_;
+    const ProcessGroup* group_;
+};
 
 /// Advances the reader from the beginning of the file to the line of an entry. Used only for
 /// errors.
@@ -76,11 +121,12 @@ NumberedVertices vertex_numbers(const GrowingMesh& growing) {
 void read_node(const fs::path& path, GrowingMesh& growing) {
     LineReader reader(path);
     const NodeHead head = read_node_head(reader);
-    growing.expect_points(head.count, head.attributes, head.markers == 1);
+    Entries entries(reader, head.count, growing.group());
+    growing.expect_points(head.count, head.attributes, head.markers == 1, entries.room());
     Mesh& mesh = growing.mesh;
-    mesh.index_base = read_entries(
-        reader, head.count, head.field_count(), std::nullopt,
-        [&](Fields& fields) { read_point(fields, head, mesh); }, [&] { growing.point_complete(); });
+    mesh.index_base = entries.read(
+        head.field_count(), std::nullopt, [&](Fields& fields) { read_point(fields, head, mesh); },
+        [&] { growing.point_complete(); });
     growing.points_complete();
 }
 
@@ -127,7 +173,8 @@ private:
 void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& growing) {
     LineReader reader(path);
     const EleHead head = read_ele_head(reader);
-    growing.expect(cell_kind, head.count, head.attributes == 1);
+    Entries entries(reader, head.count, growing.group());
+    growing.expect(cell_kind, head.count, head.attributes == 1, entries.room());
     const NumberedVertices numbers = vertex_numbers(growing);
     Mesh& mesh = growing.mesh;
     std::optional<CellsOfFile> cells;
@@ -141,7 +188,7 @@ void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& gro
         if (cells) cells->cell_read();
     };
     try {
-        read_entries(reader, head.count, head.field_count(), mesh.index_base, read_cell, complete);
+        (void)entries.read(head.field_count(), mesh.index_base, read_cell, complete);
     } catch (const InputError&) {
         if (cells) cells->check_entities();  // an error in an earlier line takes precedence
         throw;
@@ -150,13 +197,23 @@ void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& gro
     if (cells) cells->finish(options);
 }
 
+/// Collective. Returns whether the lines of a file end with adjacent cells, given whether those of
+/// this process do. Throws if only those of some processes do.
+bool have_adjacent_cells(std::optional<bool> here, const ProcessGroup& group) {
+    const std::uint64_t with = group.sum(here == true ? 1 : 0);
+    const std::uint64_t without = group.sum(here == false ? 1 : 0);
+    if (with > 0 && without > 0) throw InputError("adjacent cells of some entries only");
+    return with > 0;
+}
+
 /// Reads a `.face` or `.edge` file: entities of N vertices.
 template <class I, std::size_t N>
 void read_entities(const fs::path& path, std::string_view name, const EntityKind<I, N>& kind,
                    const ReadOptions& options, GrowingMesh& growing) {
     LineReader reader(path);
     const ListHead head = read_list_head(reader, N);
-    growing.expect(kind, head.count, head.markers == 1);
+    Entries entries(reader, head.count, growing.group());
+    growing.expect(kind, head.count, head.markers == 1, entries.room());
     const NumberedVertices numbers = vertex_numbers(growing);
     Mesh& mesh = growing.mesh;
     std::optional<bool> has_adjacent_cells;  // determined by the first entry
@@ -165,10 +222,12 @@ void read_entities(const fs::path& path, std::string_view name, const EntityKind
         if (!has_adjacent_cells) has_adjacent_cells = ends_with_adjacent_cells<N>(fields, head);
         if (*has_adjacent_cells) skip_adjacent_cells<N>(fields);
     };
-    read_entries(reader, head.count, 1 + N + head.markers, mesh.index_base, read_entity,
-                 [&] { growing.entity_complete(kind); });
+    (void)entries.read(1 + N + head.markers, mesh.index_base, read_entity,
+                       [&] { growing.entity_complete(kind); });
     growing.all_complete(kind);
-    if (has_adjacent_cells == true) options.note(note_on_adjacent_cells(path, name));
+    if (have_adjacent_cells(has_adjacent_cells, growing.group())) {
+        options.note(note_on_adjacent_cells(path, name));
+    }
 }
 
 template <class I>
@@ -195,8 +254,9 @@ void require_companion(const fs::path& path, const fs::path& other) {
     }
 }
 
-/// Reads all files into `growing`.
-void read_files(const fs::path& path, const ReadOptions& options, GrowingMesh& growing) {
+}  // namespace
+
+void read_tetgen(const fs::path& path, const ReadOptions& options, GrowingMesh& growing) {
     const fs::path node = companion(path, ".node");
     const fs::path ele = companion(path, ".ele");
     if (!is_there(ele) && !is_there(node)) LineReader missing(path);  // throws, naming the path
@@ -215,20 +275,6 @@ void read_files(const fs::path& path, const ReadOptions& options, GrowingMesh& g
         const auto wrong = options.only_syntax ? WrongEntry<EdgeIndex>{} : find_wrong_edge(mesh);
         refuse_if_wrong(wrong, "edge", mesh.edge_markers, mesh, edge);
     }
-    growing.finish();
-}
-
-}  // namespace
-
-Mesh read_tetgen(const fs::path& path, const ReadOptions& options) {
-    GrowingMesh growing(nullptr, false);
-    read_files(path, options, growing);
-    return std::move(growing.mesh);
-}
-
-void stream_tetgen(const fs::path& path, MeshSink& sink, const ReadOptions& options) {
-    GrowingMesh growing(&sink, false);
-    read_files(path, options, growing);
 }
 
 }  // namespace octetra

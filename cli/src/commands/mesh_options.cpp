@@ -1,7 +1,6 @@
 #include "commands/mesh_options.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/files/output_paths.hpp>
 #include <octetra/core/files/sol_files.hpp>
+#include <octetra/core/mesh_formats.hpp>
 
 #include "grouped.hpp"
 #include "terminal.hpp"
@@ -102,21 +102,14 @@ void check_output(const std::filesystem::path& path, int ranks) {
     is_checkpoint(path) ? check_output_path(path) : check_writable(path, ranks);
 }
 
-bool records_origins(const std::filesystem::path& path) {
-    constexpr std::array<std::string_view, 5> without_origins{".node", ".ele", ".mesh", ".meshb",
-                                                              ".msh"};
-    return std::ranges::find(without_origins, path.extension()) == without_origins.end();
-}
+bool records_origins(const std::filesystem::path& path) { return mesh_format_of(path).parents; }
 
 void check_side_file(std::string_view option, const std::filesystem::path& path) {
     if (path == "-") {
         throw InputError(
             fmt::format("{}: - is not a file name; write ./- for a file of that name", option));
     }
-    constexpr std::array<std::string_view, 15> mesh_files{
-        ".ele", ".node", ".face", ".edge",   ".mesh", ".meshb", ".sol",    ".solb",
-        ".msh", ".vtu",  ".pvtu", ".vtkhdf", ".xdmf", ".h5",    ".octetra"};
-    if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {
+    if (is_mesh_file(path)) {
         throw InputError(fmt::format("{}: {} is the name of a mesh file; choose another", option,
                                      path.native()));
     }
@@ -124,7 +117,7 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
 }
 
 void check_series(const std::filesystem::path& path) {
-    if (path.extension() != ".vtkhdf") {
+    if (format_of(path) != Format::vtkhdf) {
         throw InputError(fmt::format("--series: {}: a series is a .vtkhdf file", path.native()));
     }
     check_output_path(path);
@@ -139,11 +132,10 @@ std::string state_is_lost(const std::string& checkpoint) {
 }
 
 void report_written(const Mesh& mesh, const std::string& path) {
-    const auto extension = std::filesystem::path(path).extension();
-    const bool holds_facets = extension != ".vtu" && extension != ".pvtu" && extension != ".vtkhdf";
-    print("wrote {}: {} vertices, {} cells{}\n", path, grouped(mesh.points.size()),
-          grouped(mesh.cells.size()),
-          holds_facets ? fmt::format(", {} facets", grouped(mesh.facets.size())) : "");
+    print(
+        "wrote {}: {} vertices, {} cells{}\n", path, grouped(mesh.points.size()),
+        grouped(mesh.cells.size()),
+        mesh_format_of(path).facets ? fmt::format(", {} facets", grouped(mesh.facets.size())) : "");
 }
 
 namespace {

@@ -13,6 +13,7 @@
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/output_paths.hpp>
 #include <octetra/core/files/sol_files.hpp>
+#include <octetra/core/mesh_formats.hpp>
 #include <octetra/core/mesh_share.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
@@ -31,30 +32,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { tetgen, medit, meshb, gmsh, vtu, pvtu, vtkhdf, xdmf, unknown };
-
-Format format_of(const fs::path& path) {
-    const fs::path extension = path.extension();
-    if (extension == ".ele" || extension == ".node") return Format::tetgen;
-    if (extension == ".mesh") return Format::medit;
-    if (extension == ".meshb") return Format::meshb;
-    if (extension == ".msh") return Format::gmsh;
-    if (extension == ".vtu") return Format::vtu;
-    if (extension == ".pvtu") return Format::pvtu;
-    if (extension == ".vtkhdf") return Format::vtkhdf;
-    if (extension == ".xdmf") return Format::xdmf;
-    return Format::unknown;
-}
-
 /// Returns a hint for error messages if the extension would be known in lower case.
 std::string_view hint_at_case(const fs::path& path) {
     std::string extension = path.extension().native();
     for (char& c : extension) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }
-    const fs::path lowered("mesh" + extension);
-    const bool is_known = format_of(lowered) != Format::unknown || is_checkpoint(lowered);
-    return is_known ? ", in lower case" : "";
+    return format_of("mesh" + extension) != Format::unknown ? ", in lower case" : "";
 }
 
 /// Throws InputError with the reason why no mesh can be read from this file.
@@ -190,19 +174,14 @@ void add_lost_fields(std::string& lost, const MeshSource& mesh, const fs::path& 
     }
 }
 
-bool can_hold_features(const fs::path& path) {
-    return format_of(path) == Format::medit || format_of(path) == Format::meshb;
-}
-
 /// Returns the message on all data that a format cannot represent. `lost` is the message without
 /// group names, features and fields.
 std::string all_lost(std::string lost, const MeshSource& mesh, const fs::path& path) {
-    if (!mesh.facts().group_names.empty() && format_of(path) != Format::gmsh) {
+    const MeshFormat format = mesh_format_of(path);
+    if (!mesh.facts().group_names.empty() && !format.group_names) {
         add_loss(lost, group_names_are_lost);
     }
-    if (has_any(mesh.facts().features) && !can_hold_features(path)) {
-        add_loss(lost, features_are_lost);
-    }
+    if (has_any(mesh.facts().features) && !format.features) add_loss(lost, features_are_lost);
     add_lost_fields(lost, mesh, path);
     return lost;
 }
@@ -219,6 +198,7 @@ std::string write_lists(MeshSource& mesh, const fs::path& path, const WriteOptio
         case Format::vtkhdf: return write_vtkhdf(mesh, path);
         case Format::xdmf: return write_xdmf(mesh, path);
         case Format::pvtu: return write_pvtu(mesh, ProcessGroup::alone(), path);
+        case Format::checkpoint:
         case Format::unknown: break;
     }
     return {};
@@ -237,18 +217,11 @@ std::string write_mesh(const Mesh& mesh, const fs::path& path, const WriteOption
     return write_mesh(source, path, options);
 }
 
-bool can_hold_attributes(const fs::path& path) {
-    const Format format = format_of(path);
-    return format != Format::medit && format != Format::meshb && format != Format::gmsh;
-}
+bool can_hold_attributes(const fs::path& path) { return mesh_format_of(path).attributes; }
 
-bool can_hold_vertex_markers(const fs::path& path) { return format_of(path) != Format::gmsh; }
+bool can_hold_vertex_markers(const fs::path& path) { return mesh_format_of(path).vertex_markers; }
 
-bool can_hold_fields(const fs::path& path) {
-    const Format format = format_of(path);
-    return format == Format::vtu || format == Format::pvtu || format == Format::vtkhdf ||
-           format == Format::xdmf;
-}
+bool can_hold_fields(const fs::path& path) { return mesh_format_of(path).fields; }
 
 bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu; }
 

@@ -5,6 +5,7 @@
 
 #include <octetra/core/checkpoint_blocks.hpp>
 #include <octetra/core/error.hpp>
+#include <octetra/core/mesh_formats.hpp>
 
 #include "files/checkpoint/table.hpp"
 #include "files/input/input_file.hpp"
@@ -217,6 +218,8 @@ CheckpointFacts read_checkpoint_facts(const std::filesystem::path& path) {
     return CheckpointReader(path).facts();
 }
 
-bool is_checkpoint(const std::filesystem::path& path) { return path.extension() == ".octetra"; }
+bool is_checkpoint(const std::filesystem::path& path) {
+    return format_of(path) == Format::checkpoint;
+}
 
 }  // namespace octetra

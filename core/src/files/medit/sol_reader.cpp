@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/files/sol_files.hpp>
+#include <octetra/core/mesh_formats.hpp>
 #include <octetra/core/sol_fields.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
@@ -109,8 +110,10 @@ bool is_sol(const std::filesystem::path& path) {
 }
 
 std::optional<std::filesystem::path> sol_path_for(const std::filesystem::path& path) {
-    if (path.extension() == ".mesh") return std::filesystem::path(path).replace_extension(".sol");
-    if (path.extension() == ".meshb") return std::filesystem::path(path).replace_extension(".solb");
+    const MeshFormat format = mesh_format_of(path);
+    if (format.format == Format::medit || format.format == Format::meshb) {
+        return std::filesystem::path(path).replace_extension(format.extensions[1]);
+    }
     return {};
 }
 

@@ -11,6 +11,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/files/output_paths.hpp>
+#include <octetra/core/mesh_formats.hpp>
 
 namespace octetra {
 namespace {
@@ -33,9 +34,7 @@ fs::path folder_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-bool is_tetgen(const fs::path& path) {
-    return path.extension() == ".ele" || path.extension() == ".node";
-}
+bool is_tetgen(const fs::path& path) { return format_of(path) == Format::tetgen; }
 
 void add(std::vector<fs::path>& paths, const fs::path& path) {
     if (std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
@@ -121,10 +120,11 @@ std::vector<fs::path> lists_read_with(const fs::path& path, std::string_view ext
 }
 
 std::vector<fs::path> files_of_mesh(const fs::path& path) {
-    if (path.extension() == ".xdmf") return {path, h5_beside(path)};
-    if (!is_tetgen(path)) return {path};
+    const MeshFormat format = mesh_format_of(path);
+    if (format.format == Format::xdmf) return {path, h5_beside(path)};
+    if (format.format != Format::tetgen) return {path};
     std::vector<fs::path> files;
-    for (const char* const extension : {".node", ".ele", ".face", ".edge"}) {
+    for (const std::string_view extension : format.extensions) {
         files.push_back(fs::path(path).replace_extension(extension));
     }
     return files;

@@ -14,6 +14,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/output_paths.hpp>
+#include <octetra/core/mesh_formats.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
 #include "files/hdf5/hdf5_writer.hpp"
@@ -293,7 +294,7 @@ struct MeshSeries::Parts {
 
 MeshSeries::MeshSeries(const fs::path& path, const ProcessGroup& group) {
     group.on_first([&] {
-        if (path.extension() != ".vtkhdf") {
+        if (format_of(path) != Format::vtkhdf) {
             throw InputError(
                 fmt::format("{}: a series of meshes is a .vtkhdf file", path.native()));
         }

@@ -58,6 +58,8 @@ public:
     [[nodiscard]] int rank() const override { return rank_; }
     [[nodiscard]] int size() const override { return static_cast<int>(board_->outboxes.size()); }
 
+    [[nodiscard]] bool is_in_transaction() const override { return is_in_transaction_; }
+
     [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> to_each) const override {
         if (is_in_transaction_ && !failure_) failure_ = agreed(nullptr);
         if (failure_) throw OthersFailed();

@@ -119,9 +119,11 @@ void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& option
 
 std::optional<MeshShare> read_mesh_share(const fs::path& path, const ProcessGroup& group) {
     const StandardArithmetic standard;
-    if (format_of(path) == Format::gmsh) return read_gmsh_share(path, group);
     try {
-        return group.transaction([&] { return read_share(path, group); });
+        return group.transaction([&]() -> std::optional<MeshShare> {
+            if (format_of(path) == Format::gmsh) return read_gmsh_share(path, group);
+            return read_share(path, group);
+        });
     } catch (const InputError&) {
     } catch (const SystemError&) {
     }

@@ -37,15 +37,9 @@ void broadcast_headers(const Communicator& processes, std::vector<FieldRows>& li
     }
 }
 
-/// Collective. Every process reads its share of the file; if the format does not allow that, the
-/// first process reads it all.
-SolFields read_lists(const Communicator& processes, const std::filesystem::path& path,
-                     const EntityCounts& counts) {
-    if (processes.size() > 1) {
-        if (auto from_shares = read_sol_share(path, counts, processes)) {
-            return *std::move(from_shares);
-        }
-    }
+/// Collective. The first process reads the whole file, because its format does not allow shares.
+SolFields read_on_first(const Communicator& processes, const std::filesystem::path& path,
+                        const EntityCounts& counts) {
     SolFields alone;
     if (processes.is_first()) alone = read_sol(path, counts);
     broadcast_headers(processes, alone.lists);
@@ -73,13 +67,18 @@ std::vector<Field> read_fields(const DistributedMesh& mesh, std::span<const Cell
                                const CanonicalNumbers& numbers, const std::filesystem::path& path,
                                const std::function<void(const std::string&)>& note) {
     const Communicator& processes = mesh.processes;
-    return processes.transaction([&] {
+    const CanonicalRuns runs = processes.transaction([&] {
         if (!is_sol(path)) {
             throw InputError(
                 fmt::format("{}: files of values end in .sol or .solb", path.native()));
         }
-        const CanonicalRuns runs = canonical_runs(processes, mesh.cell_ancestors);
-        const SolFields read = read_lists(processes, path, {numbers.vertex_count, runs.count});
+        return canonical_runs(processes, mesh.cell_ancestors);
+    });
+    const EntityCounts counts{numbers.vertex_count, runs.count};
+    std::optional<SolFields> shares;
+    if (processes.size() > 1) shares = read_sol_share(path, counts, processes);
+    return processes.transaction([&] {
+        const SolFields read = shares ? *std::move(shares) : read_on_first(processes, path, counts);
         std::vector<Field> fields;
         for (const FieldRows& list : read.lists) {
             OwnerMap owners = owners_of_shares(processes, list.first, list.count);

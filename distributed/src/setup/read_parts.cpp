@@ -40,13 +40,14 @@ std::optional<DistributedMesh> read_by_shares(const Communicator& processes,
         if (!share || !caller_accepts(share->facts, options)) return std::nullopt;
     }
     const std::vector<std::string> notes = std::move(share->notes);
-    auto mesh = distribute_share(processes, std::move(*share), method, options.weigh);
-    if (!mesh) return std::nullopt;
-    const Phase phase(processes, "read");
-    for (const std::string& note : notes) {
-        if (processes.is_first()) options.read.note(note);
-    }
-    return mesh;
+    return processes.transaction([&] {
+        auto mesh = distribute_share(processes, std::move(*share), method, options.weigh);
+        const Phase phase(processes, "read");
+        for (const std::string& note : notes) {
+            if (mesh && processes.is_first()) options.read.note(note);
+        }
+        return mesh;
+    });
 }
 
 /// Collective. Returns the facts of the first process's mesh on all processes; only group names are
@@ -105,15 +106,13 @@ DistributedMesh read_on_first(const Communicator& processes, const std::filesyst
 DistributedMesh read_parts(const Communicator& processes, const std::filesystem::path& path,
                            const Partition& partition, const ReadPartsOptions& options) {
     const StandardArithmetic standard;
-    return processes.transaction([&] {
-        in_phase(processes, "read", [&] { processes.check_same("partition", text_of(partition)); });
-        if (processes.size() > 1 && supports_shares(partition.method) &&
-            !options.read.only_syntax) {
-            auto mesh = read_by_shares(processes, path, partition.method, options);
-            if (mesh) return std::move(*mesh);
-        }
-        return read_on_first(processes, path, partition, options);
-    });
+    in_phase(processes, "read", [&] { processes.check_same("partition", text_of(partition)); });
+    if (processes.size() > 1 && supports_shares(partition.method) && !options.read.only_syntax) {
+        auto mesh = read_by_shares(processes, path, partition.method, options);
+        if (mesh) return std::move(*mesh);
+    }
+    return processes.transaction(
+        [&] { return read_on_first(processes, path, partition, options); });
 }
 
 }  // namespace octetra::distributed

@@ -73,6 +73,8 @@ public:
         }
     }
 
+    [[nodiscard]] virtual bool is_in_transaction() const { return false; }
+
     /// Runs `work` on the first process while the others wait. An exception there is thrown on all
     /// processes: an InputError as such, any other as a SystemError.
     void on_first(const std::function<void()>& work) const;

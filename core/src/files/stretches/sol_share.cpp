@@ -144,8 +144,15 @@ std::optional<SolFields> read_binary_share(const fs::path& path, const EntityCou
 std::optional<SolFields> read_sol_share(const fs::path& path, const EntityCounts& expected,
                                         const ProcessGroup& group) {
     const StandardArithmetic standard;
-    if (path.extension() == ".solb") return read_binary_share(path, expected, group);
-    return read_text_share(path, expected, group);
+    try {
+        return group.transaction([&] {
+            return path.extension() == ".solb" ? read_binary_share(path, expected, group)
+                                               : read_text_share(path, expected, group);
+        });
+    } catch (const InputError&) {
+    } catch (const SystemError&) {
+    }
+    return std::nullopt;
 }
 
 }  // namespace octetra

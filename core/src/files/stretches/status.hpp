@@ -14,6 +14,7 @@ namespace octetra {
 
 /// The common status of processes that read a file together. Work is attempted between two
 /// agreements; an exchange in it must be entered by all processes, even by those that have failed.
+/// Within a transaction, failures are those of the transaction: attempt() passes them on.
 class CollectiveStatus {
 public:
     explicit CollectiveStatus(const ProcessGroup& group) : group_(&group) {}
@@ -23,6 +24,7 @@ public:
     /// Calls `work`, unless something has failed. The error is not kept, because the process that
     /// reads the file alone afterwards reports it; only std::bad_alloc is kept.
     void attempt(auto&& work) {
+        if (group_->is_in_transaction()) return work();
         if (!has_succeeded_) return;
         try {
             work();
@@ -37,6 +39,7 @@ public:
     /// Collective. Returns whether no process has failed. Rethrows the std::bad_alloc of this
     /// process.
     [[nodiscard]] bool all_succeeded() const {
+        if (group_->is_in_transaction()) return true;
         const bool succeeded = group_->sum(has_succeeded_ ? 0 : 1) == 0;
         if (no_memory_) std::rethrow_exception(no_memory_);
         return succeeded;

@@ -163,7 +163,7 @@ public:
     struct Mpi;  // wraps an MPI communicator; see octetra/distributed/mpi.hpp
     explicit Communicator(std::shared_ptr<const Mpi> mpi);
     [[nodiscard]] const Mpi* mpi() const { return mpi_.get(); }  ///< null: this process alone
-    [[nodiscard]] bool is_in_transaction() const;
+    [[nodiscard]] bool is_in_transaction() const override;
 
 private:
     using Allocate = std::byte* (*)(void* context, std::size_t i, std::size_t size);

@@ -168,29 +168,6 @@ TEST(Refine, CarriesRegionsFacetsAndEdgesOfASolid) {
     EXPECT_EQ(after["regions"][1]["cells"], 64 * before["regions"][1]["cells"].get<int>());
 }
 
-TEST(Refine, BeyondALimitOnFileSizesIsAFailureOfTheSystemThatLeavesNothing) {
-    const TemporaryFolder folder;
-    ASSERT_EQ(test::octetra("generate kuhn 8 -o cube.mesh", folder).status, 0);
-    const test::Outcome run = test::run_program(
-        {"/bin/bash", "-c", "ulimit -f 8; " OCTETRA_PROGRAM " refine cube.mesh --all -o f.mesh"},
-        folder.path());
-    EXPECT_EQ(run.status, 3);
-    EXPECT_EQ(run.err, "octetra: f.mesh: writing failed: File too large\n");
-    std::filesystem::remove(folder / "cube.mesh");
-    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-}
-
-TEST(Output, ToAFullDiskIsAFailureOfTheSystem) {
-    const TemporaryFolder folder;
-    ASSERT_EQ(test::octetra("generate regular -o one.mesh", folder).status, 0);
-    for (const std::string arguments : {"info one.mesh", "--version", "refine --help"}) {
-        const test::Outcome run = test::run_program(
-            {"/bin/bash", "-c", OCTETRA_PROGRAM " " + arguments + " > /dev/full"}, folder.path());
-        EXPECT_EQ(run.status, 3) << arguments;
-        EXPECT_EQ(run.err, "octetra: standard output cannot be written\n") << arguments;
-    }
-}
-
 /// A unit cube of six cells; each level halves lengths.
 TEST(Refine, ReportsTheNumberOfCellsThatAreStillTooLarge) {
     const TemporaryFolder folder;

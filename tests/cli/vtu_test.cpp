@@ -227,18 +227,5 @@ TEST(Vtkhdf, HoldsMeshesWithoutTagsAndOfManySlices) {
     }
 }
 
-TEST(Vtkhdf, BeyondTheLimitOfAFileEndsInStatus3) {
-    const TemporaryFolder folder;
-    ASSERT_EQ(test::octetra("generate kuhn 4 -o a.ele", folder).status, 0);
-    const auto run =
-        test::run_program({"sh", "-c",
-                           "trap '' XFSZ; ulimit -f 1; exec " + std::string(OCTETRA_PROGRAM) +
-                               " convert a.ele a.vtkhdf --quiet"},
-                          folder.path());
-    EXPECT_EQ(run.status, 3);
-    EXPECT_EQ(run.err, "octetra: a.vtkhdf: writing failed: File too large\n");
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.vtkhdf"));
-}
-
 }  // namespace
 }  // namespace octetra

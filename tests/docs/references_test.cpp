@@ -116,9 +116,15 @@ TEST_P(Markdown, TestsExist) {
             declared += ")";
             const auto folder = repository / "tests" / name.substr(0, first);
             ASSERT_TRUE(std::filesystem::exists(folder)) << name;
+            std::string session = "\n== ";  // of the file SUITE.txt
+            session += name.substr(last + 1);
+            session += "\n";
             const auto declares = [&](const auto& entry) {
-                return entry.path().extension() == ".cpp" &&
-                       content_of(entry.path()).find(declared) != std::string::npos;
+                const std::string file = entry.path().filename().string();
+                const bool is_session = file == name.substr(first + 1, last - first - 1) + ".txt";
+                return (is_session || entry.path().extension() == ".cpp") &&
+                       content_of(entry.path()).find(is_session ? session : declared) !=
+                           std::string::npos;
             };
             EXPECT_TRUE(std::ranges::any_of(std::filesystem::directory_iterator(folder), declares))
                 << GetParam() << " names the test " << name;

@@ -1,4 +1,5 @@
-"""The packaging recipes agree with the build: Spack's, evaluated without Spack, and Debian's."""
+"""The packaging recipes agree with the build: Spack's and EasyBuild's, evaluated without these, those of
+conda-forge and Debian, and the settings of the wheel."""
 
 import importlib.util
 import itertools
@@ -7,6 +8,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import tomllib
 import types
 import unittest
 import unittest.mock
@@ -14,11 +16,23 @@ import urllib.parse
 
 source = pathlib.Path(sys.argv[1])
 lists = (source / "CMakeLists.txt").read_text()
+version = re.search(r"project\(Octetra VERSION (\S+)", lists)[1]
+sought = set(re.findall(r"find_package\((\w+)", lists))
+options = set(re.findall(r"^option\((\w+)", lists, re.MULTILINE))
+settings = tomllib.loads((source / "pyproject.toml").read_text())
 
 # Spack's names of the packages sought by find_package().
 SPACK_NAMES = {"fmt": "fmt", "ZLIB": "zlib-api", "SerialHDF5": "hdf5",
                "Boost": "boost", "xxHash": "xxhash", "MPI": "mpi", "METIS": "metis",
                "CGAL": "cgal", "CLI11": "cli11", "nlohmann_json": "nlohmann-json"}
+# EasyBuild's names; MPI is part of its toolchain.
+EASYBUILD_NAMES = {"fmt": "fmt", "ZLIB": "zlib", "SerialHDF5": "HDF5",
+                   "Boost": "Boost", "xxHash": "xxHash", "METIS": "METIS",
+                   "CGAL": "CGAL", "CLI11": "CLI11", "nlohmann_json": "nlohmann_json"}
+# The names of conda-forge.
+CONDA_NAMES = {"fmt": "fmt", "ZLIB": "zlib", "SerialHDF5": "hdf5",
+               "Boost": "libboost-headers", "xxHash": "xxhash", "MPI": "openmpi", "METIS": "metis",
+               "CGAL": "cgal-cpp", "CLI11": "cli11", "nlohmann_json": "nlohmann_json"}
 
 
 def holds(condition, variants):
@@ -102,14 +116,14 @@ class Spack(unittest.TestCase):
         self.assertTrue(source.samefile(urllib.parse.unquote(url.path)))
 
     def test_recipe_sets_options_that_there_are(self):
-        known = set(re.findall(r"^option\((\w+)", lists, re.MULTILINE)) | {"BUILD_SHARED_LIBS"}
+        known = options | {"BUILD_SHARED_LIBS"}
         set_options = {re.match(r"-D(\w+):BOOL=(?:ON|OFF)$", option)[1]
                        for option in self.recipe.options_of(self.recipe.defaults)}
         self.assertLessEqual(set_options, known)
 
     def test_recipe_depends_on_all_packages_sought_by_cmake(self):
         """CMake itself reports which packages it needs when the others are declared missing."""
-        self.assertEqual(set(re.findall(r"find_package\((\w+)", lists)), set(SPACK_NAMES))
+        self.assertEqual(sought, set(SPACK_NAMES))
         combinations = list(self.recipe.allowed())
         self.assertIn(self.recipe.defaults, combinations)
         for variants in combinations:
@@ -126,17 +140,54 @@ class Spack(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
 
 
+class EasyBuild(unittest.TestCase):
+    def setUp(self):
+        self.path, = (source / "packaging/easybuild").glob("*.eb")
+        self.recipe = {"SOURCELOWER_TAR_GZ": "", "SHLIB_EXT": "so"}
+        exec(self.path.read_text(), self.recipe)
+
+    def test_file_is_named_after_its_contents(self):
+        self.assertEqual(self.recipe["version"], version)
+        chain = self.recipe["toolchain"]
+        self.assertEqual(self.path.stem, f"octetra-{version}-{chain['name']}-{chain['version']}")
+
+    def test_recipe_depends_on_all_packages_sought_by_cmake(self):
+        self.assertEqual(sought, set(EASYBUILD_NAMES) | {"MPI"})
+        needed = {entry[0] for entry in self.recipe["dependencies"] + self.recipe["builddependencies"]}
+        self.assertLessEqual({*EASYBUILD_NAMES.values(), "Python", "pybind11"}, needed)
+
+    def test_recipe_sets_options_that_there_are(self):
+        self.assertLessEqual(set(re.findall(r"-D(OCTETRA_\w+)", self.recipe["configopts"])), options)
+
+
+class Wheel(unittest.TestCase):
+    def test_settings_are_options_that_there_are(self):
+        defined = settings["tool"]["scikit-build"]["cmake"]["define"]
+        own = {name for name in defined if name.startswith("OCTETRA_")}
+        self.assertLessEqual(own, options | {"OCTETRA_PYTHON_SITE"})
+
+
+class CondaForge(unittest.TestCase):
+    def test_recipe_depends_on_all_packages_sought_by_cmake_and_pip(self):
+        text = (source / "packaging/conda-forge/recipe.yaml").read_text()
+        self.assertIn(f'version: "{version}"', text)
+        host = re.search(r"^  host:\n((?:    - .*\n)+)", text, re.MULTILINE)[1]
+        needed = set(re.findall(r"- ([\w.-]+)", host))
+        self.assertEqual(sought, set(CONDA_NAMES))
+        by_pip = {re.match(r"[\w-]+", name)[0] for name in settings["build-system"]["requires"]}
+        self.assertLessEqual({*CONDA_NAMES.values(), *by_pip}, needed)
+
+
 class Debian(unittest.TestCase):
     """Checks that need no package to be built."""
 
-    version = re.search(r"project\(Octetra VERSION (\S+)", lists)[1]
     control = (source / "debian/control").read_text()
 
     def test_version_is_that_of_the_sources(self):
         changelog = (source / "debian/changelog").read_text()
-        self.assertEqual(re.match(r"octetra \(([\d.]+)", changelog)[1], self.version)
+        self.assertEqual(re.match(r"octetra \(([\d.]+)", changelog)[1], version)
         named = set(re.findall(r"liboctetra(\d[\d.]*)", self.control))
-        self.assertEqual(named, {self.version.rpartition(".")[0]})
+        self.assertEqual(named, {version.rpartition(".")[0]})
 
     def test_packages_to_build_with_are_those_that_dev_installs(self):
         field = re.search(r"^Build-Depends:\n((?: .*\n)+)", self.control, re.MULTILINE)[1]

@@ -47,7 +47,7 @@ class Octetra(CMakePackage):
         depends_on("metis@5:~int64")
         depends_on("pkgconfig", type="build")
     with when("+verify"):
-        depends_on("cgal@5.5:5")
+        depends_on("cgal@5.5:6")
     with when("+cli"):
         depends_on("cli11")
         depends_on("nlohmann-json")

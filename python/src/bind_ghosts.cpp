@@ -47,10 +47,9 @@ py::array ghost_values(const Ghosts& ghosts, const Arguments& arguments) {
     const Values own = values_on_each(ghosts.processes, [&] {
         return values_for(arguments.values<1>()[0], ghosts.layer.own_cell_count, "cells");
     });
-    return own.like(without_gil([&] {
-        const auto* bytes = static_cast<const std::byte*>(own.array.data());
-        return ghosts.layer.values(ghosts.processes, std::span(bytes, own.count * own.bytes()),
-                                   own.bytes());
+    const auto* bytes = static_cast<const std::byte*>(own.array.data());
+    return own.like(without_gil([&, size = own.bytes()] {
+        return ghosts.layer.values(ghosts.processes, std::span(bytes, own.count * size), size);
     }));
 }
 

@@ -14,7 +14,9 @@ py::array moved(const Moved& move, const Arguments& arguments, std::size_t count
                 const char* entities, auto&& transfer) {
     const Values values = values_on_each(
         move.processes, [&] { return values_for(arguments.values<1>()[0], count, entities); });
-    return values.like(without_gil([&] { return transfer(values.copy(), values.bytes()); }));
+    return values.like(without_gil([&, copy = values.copy(), size = values.bytes()]() mutable {
+        return transfer(std::move(copy), size);
+    }));
 }
 
 py::array moved_cells(const Moved& move, const Arguments& arguments) {

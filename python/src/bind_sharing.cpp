@@ -80,8 +80,8 @@ py::dict with_each(const SharedEntities& of) {
 /// Collective. A copy of the values after exchange(sharing, copy, components).
 template <class T>
 py::array exchanged(const SharedEntities& of, const Values& values, auto&& exchange) {
+    const std::size_t components = values.bytes() / sizeof(T);
     return values.like(without_gil([&, copy = values.copy<T>()]() mutable {
-        const std::size_t components = values.bytes() / sizeof(T);
         std::visit([&](const auto& sharing) { exchange(*sharing, copy, components); }, of.sharing);
         return std::move(copy);
     }));

@@ -28,6 +28,7 @@ struct Values {
     /// A writable array of this type for `new_count` entities, over memory that `owner` keeps.
     [[nodiscard]] py::array like(std::size_t new_count, const void* data,
                                  std::shared_ptr<const void> owner) const;
+    /// The bytes of the values of one entity. Requires the GIL, as copy() and like() do.
     [[nodiscard]] std::size_t bytes() const {
         return components * static_cast<std::size_t>(array.itemsize());
     }

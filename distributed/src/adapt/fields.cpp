@@ -1,5 +1,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 
+#include <optional>
+
 #include "adapt/mesh_state.hpp"
 #include "fields/read_fields.hpp"
 #include "level/incremental/adjacency.hpp"
@@ -9,11 +11,10 @@ namespace octetra::distributed {
 
 std::vector<Field> AdaptiveMesh::read_fields(
     const std::filesystem::path& path, const std::function<void(const std::string&)>& note) const {
-    return processes().transaction([&] {
-        const CanonicalOrder order(state_->mesh);
-        return distributed::read_fields(state_->mesh, order.cells_before(), state_->numbers, path,
-                                        note);
-    });
+    std::optional<CanonicalOrder> order;
+    processes().transaction([&] { order.emplace(state_->mesh); });
+    return distributed::read_fields(state_->mesh, order->cells_before(), state_->numbers, path,
+                                    note);
 }
 
 std::string AdaptiveMesh::write(const std::filesystem::path& path, std::span<const Field> fields,

@@ -1,6 +1,7 @@
 #include "fields/read_fields.hpp"
 
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>

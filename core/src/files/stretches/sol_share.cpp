@@ -2,6 +2,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <octetra/core/error.hpp>
 #include <octetra/core/sol_fields.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 

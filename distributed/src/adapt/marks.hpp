@@ -5,7 +5,7 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "mark/marked_cells.hpp"
+#include "level/marked_cells.hpp"
 
 /// Conversions of the marks of a program to those of a level. Each throws InputError if the marks
 /// do not fit the mesh; none is collective.

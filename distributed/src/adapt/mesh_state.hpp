@@ -8,8 +8,8 @@
 
 #include "history/cells_as_roots.hpp"
 #include "history/history.hpp"
+#include "level/marked_cells.hpp"
 #include "level/planned_level.hpp"
-#include "mark/marked_cells.hpp"
 #include "numbering/canonical_numbers.hpp"
 
 namespace octetra::distributed {

@@ -6,7 +6,7 @@
 #include <octetra/distributed/sharing.hpp>
 
 #include "level/incremental/adjacency.hpp"
-#include "mark/marked_cells.hpp"
+#include "level/marked_cells.hpp"
 
 namespace octetra::distributed {
 

@@ -7,7 +7,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "history/cut_roots.hpp"
-#include "mark/marked_cells.hpp"
+#include "level/marked_cells.hpp"
 
 namespace octetra::distributed {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "history/has_lists.hpp"
 #include "history/recall_history.hpp"
 #include "level/known_marker.hpp"
-#include "migrate/has_lists.hpp"
 
 namespace octetra::distributed {
 namespace {

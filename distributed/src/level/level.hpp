@@ -8,8 +8,8 @@
 #include <octetra/distributed/refine.hpp>
 
 #include "level/closure.hpp"
+#include "level/marked_cells.hpp"
 #include "level/rounding_failure.hpp"
-#include "mark/marked_cells.hpp"
 #include "pattern/patterns.hpp"
 
 namespace octetra::distributed {

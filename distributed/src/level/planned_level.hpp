@@ -5,8 +5,8 @@
 
 #include "level/incremental/adjacency.hpp"
 #include "level/level.hpp"
+#include "level/marked_cells.hpp"
 #include "level/tuning.hpp"
-#include "mark/marked_cells.hpp"
 
 namespace octetra::distributed {
 

@@ -5,7 +5,7 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "migrate/has_lists.hpp"
+#include "history/has_lists.hpp"
 #include "migrate/root_message.hpp"
 
 namespace octetra::distributed {

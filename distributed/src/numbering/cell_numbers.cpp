@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "numbering/canonical_runs.hpp"
-#include "output/ordered_lists.hpp"
+#include "numbering/ordered_lists.hpp"
 
 namespace octetra::distributed {
 

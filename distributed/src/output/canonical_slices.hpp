@@ -8,9 +8,9 @@
 
 #include "numbering/canonical_numbers.hpp"
 #include "numbering/canonical_runs.hpp"
+#include "numbering/ordered_lists.hpp"
 #include "output/feature_slices.hpp"
 #include "output/field_slices.hpp"
-#include "output/ordered_lists.hpp"
 
 namespace octetra::distributed {
 

@@ -8,7 +8,7 @@
 #include <octetra/distributed/sharing.hpp>
 
 #include "numbering/canonical_numbers.hpp"
-#include "output/ordered_lists.hpp"
+#include "numbering/ordered_lists.hpp"
 
 namespace octetra::distributed {
 

@@ -21,7 +21,7 @@
 #include "setup/ancestors_of_roots.hpp"
 #include "setup/find_interfaces.hpp"
 #include "setup/number_check.hpp"
-#include "setup/sharers.hpp"
+#include "sharing/sharers.hpp"
 #include "sharing/vertex_sharing.hpp"
 
 namespace octetra::distributed {

@@ -20,8 +20,8 @@
 #include "setup/part_vertices.hpp"
 #include "setup/send_cells.hpp"
 #include "setup/share_corners.hpp"
-#include "setup/sharers.hpp"
 #include "setup/tagged_sides.hpp"
+#include "sharing/sharers.hpp"
 #include "sharing/vertex_sharing.hpp"
 
 namespace octetra::distributed {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "setup/sharers.hpp"
+#include "sharing/sharers.hpp"
 #include "sharing/sharing_builder.hpp"
 
 namespace octetra::distributed {

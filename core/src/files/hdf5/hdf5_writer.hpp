@@ -8,7 +8,7 @@
 
 #include "files/hdf5/hdf5_layout.hpp"
 #include "files/output/output_file.hpp"
-#include "files/vtk/vtu_arrays.hpp"
+#include "files/output/vtk_arrays.hpp"
 
 namespace octetra {
 

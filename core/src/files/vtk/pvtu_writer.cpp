@@ -9,8 +9,8 @@
 
 #include "files/output/output_file.hpp"
 #include "files/output/places.hpp"
+#include "files/output/vtk_arrays.hpp"
 #include "files/vtk/vtu.hpp"
-#include "files/vtk/vtu_arrays.hpp"
 
 namespace octetra {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <octetra/core/mesh_source.hpp>
 
-#include "files/vtk/vtu_arrays.hpp"
+#include "files/output/vtk_arrays.hpp"
 
 namespace octetra {
 

@@ -6,7 +6,7 @@
 #include <octetra/core/mesh_source.hpp>
 
 #include "files/output/output_file.hpp"
-#include "files/vtk/vtu_arrays.hpp"
+#include "files/output/vtk_arrays.hpp"
 
 /// VTK formats for unstructured grids: XML and HDF5.
 namespace octetra {

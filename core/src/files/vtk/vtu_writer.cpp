@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "files/output/output_file.hpp"
+#include "files/output/vtk_arrays.hpp"
 #include "files/vtk/vtu.hpp"
-#include "files/vtk/vtu_arrays.hpp"
 
 namespace octetra {
 namespace {

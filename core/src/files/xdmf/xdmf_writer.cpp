@@ -14,7 +14,7 @@
 #include "files/hdf5/hdf5_writer.hpp"
 #include "files/output/output_file.hpp"
 #include "files/output/places.hpp"
-#include "files/vtk/vtu_arrays.hpp"
+#include "files/output/vtk_arrays.hpp"
 
 namespace octetra {
 namespace {

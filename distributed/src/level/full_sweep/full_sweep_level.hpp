@@ -8,8 +8,8 @@
 #include "level/full_sweep/full_sweep_closure.hpp"
 #include "level/full_sweep/local_edge_set.hpp"
 #include "level/level.hpp"
+#include "level/marked_cells.hpp"
 #include "level/midpoints.hpp"
-#include "mark/marked_cells.hpp"
 #include "pattern/cell_orders.hpp"
 
 namespace octetra::distributed {

@@ -7,7 +7,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "level/full_sweep/edge_numbering.hpp"
-#include "mark/marked_cells.hpp"
+#include "level/marked_cells.hpp"
 
 namespace octetra::distributed {
 

@@ -9,8 +9,8 @@
 #include "level/incremental/adjacency.hpp"
 #include "level/incremental/incremental_closure.hpp"
 #include "level/level.hpp"
+#include "level/marked_cells.hpp"
 #include "level/midpoints.hpp"
-#include "mark/marked_cells.hpp"
 
 namespace octetra::distributed {
 

@@ -2,8 +2,8 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
+#include "level/marked_cells.hpp"
 #include "level/tuning.hpp"
-#include "mark/marked_cells.hpp"
 
 namespace octetra::distributed {
 

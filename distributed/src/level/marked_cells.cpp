@@ -1,4 +1,4 @@
-#include "mark/marked_cells.hpp"
+#include "level/marked_cells.hpp"
 
 #include <algorithm>
 

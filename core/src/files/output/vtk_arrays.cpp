@@ -1,4 +1,4 @@
-#include "files/vtk/vtu_arrays.hpp"
+#include "files/output/vtk_arrays.hpp"
 
 #include <algorithm>
 #include <cstring>

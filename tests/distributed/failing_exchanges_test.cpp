@@ -162,8 +162,10 @@ TEST(FailingAllocations, OfAPieceToWriteAreThrownOnAllProcesses) {
         {"u", FieldOn::vertices, 2, std::vector<double>(2 * mesh.points.size(), 1.5)},
         {"n", FieldOn::cells, 1, std::vector<std::int32_t>(mesh.cells.size(), 7)}};
     const std::uint64_t failures = fail_each_allocation([&] {
-        OwnPiece piece(mesh, slices.lists(), slices.numbers(), slices.facts());
-        piece.add(fields, sharing);
+        test::world().transaction([&] {
+            OwnPiece piece(mesh, slices.lists(), slices.numbers(), slices.facts());
+            piece.add(fields, sharing);
+        });
     });
     EXPECT_GE(failures, 20U);
 }

@@ -1,6 +1,8 @@
 #include <octetra/core/files/mesh_files.hpp>
 
 #include <array>
+#include <exception>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -124,8 +126,9 @@ std::optional<MeshShare> read_mesh_share(const fs::path& path, const ProcessGrou
             if (format_of(path) == Format::gmsh) return read_gmsh_share(path, group);
             return read_share(path, group);
         });
-    } catch (const InputError&) {
-    } catch (const SystemError&) {
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {  // is reported by the process that reads the file alone
     }
     return std::nullopt;
 }

@@ -39,12 +39,12 @@ RefineOptions level_options(const StepOptions& options) {
 
 std::unique_ptr<AdaptiveMesh::State> AdaptiveMesh::State::make(DistributedMesh part) {
     const Communicator processes = part.processes;
+    const Phase phase(processes, "sharers");
     return processes.transaction([&] {
         auto state = std::make_unique<State>();
         state->mesh = std::move(part);
         state->numbers = input_numbers(state->mesh);
-        state->sharing =
-            in_phase(processes, "sharers", [&] { return find_vertex_sharing(state->mesh); });
+        state->sharing = find_vertex_sharing(state->mesh);
         return state;
     });
 }

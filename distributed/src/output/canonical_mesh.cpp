@@ -37,14 +37,22 @@ struct CanonicalMesh::Parts {
     }
 };
 
+namespace {
+
+/// Collective. Returns make(), which numbers vertices, in a transaction.
+auto numbered(const Communicator processes, auto&& make) {
+    const Phase phase(processes, "number vertices");
+    return processes.transaction(make);
+}
+
+}  // namespace
+
 CanonicalMesh::CanonicalMesh(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 CanonicalMesh::CanonicalMesh(DistributedMesh mesh)
-    : parts_(Communicator(mesh.processes).transaction([&] {
-          return std::make_unique<Parts>(std::move(mesh));
-      })) {}
+    : parts_(numbered(mesh.processes, [&] { return std::make_unique<Parts>(std::move(mesh)); })) {}
 CanonicalMesh CanonicalMesh::of(const DistributedMesh& mesh) {
-    return CanonicalMesh(mesh.processes.transaction(
-        [&] { return std::make_unique<Parts>(Parts::Borrowed{&mesh}); }));
+    return CanonicalMesh(
+        numbered(mesh.processes, [&] { return std::make_unique<Parts>(Parts::Borrowed{&mesh}); }));
 }
 CanonicalMesh::~CanonicalMesh() = default;
 CanonicalMesh::CanonicalMesh(CanonicalMesh&&) noexcept = default;

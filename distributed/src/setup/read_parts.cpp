@@ -40,6 +40,7 @@ std::optional<DistributedMesh> read_by_shares(const Communicator& processes,
         if (!share || !caller_accepts(share->facts, options)) return std::nullopt;
     }
     const std::vector<std::string> notes = std::move(share->notes);
+    const Phase distributing(processes, "distribute");
     return processes.transaction([&] {
         auto mesh = distribute_share(processes, std::move(*share), method, options.weigh);
         const Phase phase(processes, "read");
@@ -111,6 +112,7 @@ DistributedMesh read_parts(const Communicator& processes, const std::filesystem:
         auto mesh = read_by_shares(processes, path, partition.method, options);
         if (mesh) return std::move(*mesh);
     }
+    const Phase phase(processes, "distribute");
     return processes.transaction(
         [&] { return read_on_first(processes, path, partition, options); });
 }

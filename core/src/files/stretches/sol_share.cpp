@@ -1,8 +1,9 @@
 #include <algorithm>
+#include <exception>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
-#include <octetra/core/error.hpp>
 #include <octetra/core/sol_fields.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
@@ -150,8 +151,9 @@ std::optional<SolFields> read_sol_share(const fs::path& path, const EntityCounts
             return path.extension() == ".solb" ? read_binary_share(path, expected, group)
                                                : read_text_share(path, expected, group);
         });
-    } catch (const InputError&) {
-    } catch (const SystemError&) {
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {  // is reported by the process that reads the file alone
     }
     return std::nullopt;
 }

@@ -106,8 +106,8 @@ TEST(CoordinateBisection, MakesThousandsOfParts) {
     std::uniform_real_distribution<double> anywhere(0, 1);
     const auto coordinate = [&] { return anywhere(random); };
     const auto lattice = [&] { return static_cast<double>(random() % 20); };
-    expect_as_by_sorting(points_of(9'000, coordinate, one), {1'500, 6'001});
-    expect_as_by_sorting(points_of(30'000, lattice, one), {1'500, 6'001});
+    expect_as_by_sorting(points_of(9'000, coordinate, one), {1'500, 6'001, 20'000});
+    expect_as_by_sorting(points_of(30'000, lattice, one), {1'500, 6'001, 16'385, 20'000});
 }
 
 TEST(CoordinateBisection, TakesCoordinatesOfAnySize) {

@@ -8,7 +8,8 @@ namespace octetra::distributed {
 namespace {
 
 /// Numbers reduced at once, 64 kB, while the boxes are at most a quarter as many.
-constexpr std::size_t max_sums = std::size_t{1} << 13U;
+constexpr unsigned max_sums_bits = 13;
+constexpr std::size_t max_sums = std::size_t{1} << max_sums_bits;
 constexpr unsigned least_bits = 2;
 /// Each point is represented by this many numbers.
 constexpr std::size_t words_per_point = 4;
@@ -34,7 +35,8 @@ LimitSearch::LimitSearch(const Communicator& processes, const WeighedPoints& poi
 }
 
 unsigned LimitSearch::digit_bits() const {
-    return std::max(least_bits, 14U - static_cast<unsigned>(std::bit_width(searches_->size())));
+    const auto box_bits = static_cast<unsigned>(std::bit_width(searches_->size()));
+    return max_sums_bits + 1 < box_bits + least_bits ? least_bits : max_sums_bits + 1 - box_bits;
 }
 
 /// Calls visit(i, box) for those of this process's points that may be at the limit of their box.

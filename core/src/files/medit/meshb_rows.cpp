@@ -82,7 +82,7 @@ bool take_entities(const std::byte* row, std::uint64_t vertex_count,
             // Zero and negative numbers wrap around.
             const auto index = static_cast<std::uint64_t>(Numbers::integer(row, k)) - 1;
             good &= index < vertex_count;
-            vertices[k] = VertexIndex{index};
+            vertices[k] = VertexIndex{static_cast<VertexIndex::Value>(index)};
         }
         const auto reference = Numbers::integer(row, N);
         good &= is_reference(reference);

@@ -1,5 +1,5 @@
-# What a file for pkg-config says of MPI. Several MPIs may be installed side by side, and each has packages of its
-# own; the right one is that of the MPI that FindMPI has found.
+# The requirements on MPI in a file for pkg-config. Several MPIs may be installed side by side, and each has packages of its
+# own; the required package is that of the MPI that FindMPI has found.
 
 # octetra_mpi_package(<variable>): the package of Open MPI or MPICH whose headers are in MPI_CXX_INCLUDE_DIRS; empty
 # for other MPIs, and where there is no pkg-config.

@@ -332,7 +332,7 @@ class Closure(unittest.TestCase):
     def test_marks_the_longest_edges_of_faces(self):
         edges = propagation.Edges(self.POINTS, self.CELLS)
         closed, sweeps = propagation.closure(edges, {edges.number[0, 3]})
-        # Of its faces 0 1 is the longest edge, and 2 3; from there closure marks 1 2, and 1 4 of
+        # The longest edges of its faces are 0 1 and 2 3; from there closure marks 1 2, and 1 4 of
         # the other cell.
         self.assertEqual(closed, {edges.number[edge] for edge in [(0, 3), (0, 1), (2, 3), (1, 2), (1, 4)]})
         self.assertEqual(sweeps, 2)

@@ -181,8 +181,8 @@ TEST(EdgeOrder, DoesNotChangeWhenAllIsMultipliedByAPowerOfTwo) {
     }
 }
 
-/// Where squares are close to the smallest normal numbers, the smaller squares of a sum lack
-/// digits, and nearly equal lengths round differently.
+/// The smaller squares of a sum lack digits if squares are close to the smallest normal numbers;
+/// nearly equal lengths round differently.
 TEST(EdgeOrder, DoesNotChangeWhereOnlyTheSmallerSquaresLoseDigits) {
     std::mt19937_64 random(6);
     std::uniform_real_distribution<double> digits(1, 2);

@@ -93,7 +93,7 @@ TEST(PredictedCells, OfABoxCountTheCellsInside) {
     const Mesh mesh = test::kuhn(4, 4, 4);
     const auto predicted =
         predicted_cells(mesh, {.boxes = {{{0, 0, 0}, {1.5, 4, 4}}}}, Scheme::eight, 4);
-    // Of the four layers of cubes the first is inside, half of the second, and nothing of the
+    // The first of the four layers of cubes is inside, half of the second, and nothing of the
     // others.
     std::array<double, 4> of_layer{};
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {

@@ -37,8 +37,8 @@ std::vector<char> moved_by_rounding(const Mesh& fine, const RefinementMaps& maps
     return moved;
 }
 
-/// Where cells without a common face are as close as the spacing of floating-point numbers, a
-/// rounded midpoint may lie on or in another cell. The engines do not check this; the verifier
+/// A rounded midpoint may lie on or in another cell if cells without a common face are as close as
+/// the spacing of floating-point numbers. The engines do not check this; the verifier
 /// reports it. A cell that has the whole edge must have been cut there.
 bool may_meet_by_rounding(const Mesh& fine, const RefinementMaps& maps,
                           const std::vector<verify::Violation>& violations) {

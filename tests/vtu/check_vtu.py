@@ -141,7 +141,7 @@ def values(data):
     lines = []
     found = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
     for array in sorted(found, key=lambda array: array.GetName()):
-        # Of two equivalent 64-bit types the readers choose different ones.
+        # Readers choose different ones of two equivalent 64-bit types.
         lines.append(f"{array.GetName()} {array.GetDataTypeSize()} {array.GetNumberOfComponents()}")
         rows = memoryview(array).tolist()
         flat = [x for row in rows for x in (row if isinstance(row, list) else [row])]

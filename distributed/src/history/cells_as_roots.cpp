@@ -49,13 +49,13 @@ std::vector<Marker> agreed_markers(const DistributedMesh& mesh) {
     }
     const auto inboxes = mesh.processes.exchange_with(neighbours, std::as_const(outboxes));
     for (std::size_t i = 0; i < inboxes.size(); ++i) {
-        auto told = inboxes[i].begin();
+        auto received = inboxes[i].begin();
         for (const EdgeVertices& edge : mesh.interfaces[i].edges) {
             for (const VertexIndex v : edge) {
-                if (told == inboxes[i].end()) break;
+                if (received == inboxes[i].end()) break;
                 MidpointMarker& marker = known[v.value()];
-                if (has_priority_over(*told, marker)) marker = *told;
-                ++told;
+                if (has_priority_over(*received, marker)) marker = *received;
+                ++received;
             }
         }
     }

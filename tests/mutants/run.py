@@ -18,6 +18,7 @@ a test is missing.
 import argparse
 import os
 import pathlib
+import random
 import re
 import shutil
 import subprocess
@@ -217,7 +218,7 @@ def run(mutants, minutes, jobs):
     for done, mutant in enumerate(mutants):
         if time.monotonic() > end:
             print(f"\ntime is up after {done} of {len(mutants)} mutants; to continue: "
-                  f"./dev campaign mutants --from {mutant['name']}")
+                  f"./dev campaign mutants --from {mutant['name']}, with the same --shuffle")
             break
         begin = time.monotonic()
         fate, how = fate_of(mutant, seconds_of, jobs)
@@ -237,6 +238,8 @@ def main():
     parser = argparse.ArgumentParser(prog="./dev campaign mutants")
     parser.add_argument("--check", action="store_true", help="only check that the mutants fit the sources")
     parser.add_argument("--minutes", type=positive, default=30, help="start no further mutant after this time")
+    parser.add_argument("--shuffle", type=int, metavar="SEED",
+                        help="in a random order, so that limited time tries a random sample")
     parser.add_argument("--from", dest="first", metavar="NAME", help="start with this mutant")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help=argparse.SUPPRESS)
     parser.add_argument("names", metavar="NAME", nargs="*", help="only these mutants; default: all")
@@ -247,14 +250,18 @@ def main():
     if arguments.check:
         return
     known = [mutant["name"] for mutant in mutants]
+    if arguments.first and arguments.names:
+        parser.error("--from and names exclude each other")
     for name in arguments.names + ([arguments.first] if arguments.first else []):
         if name not in known:
             print(f"mutants: there is no mutant {name}", file=sys.stderr)
             sys.exit(2)
     if arguments.names:
         mutants = [mutant for mutant in mutants if mutant["name"] in arguments.names]
-    elif arguments.first:
-        mutants = mutants[known.index(arguments.first):]
+    if arguments.shuffle is not None:
+        random.Random(arguments.shuffle).shuffle(mutants)
+    if arguments.first:
+        mutants = mutants[[mutant["name"] for mutant in mutants].index(arguments.first):]
     bad = run(mutants, arguments.minutes, arguments.jobs)
     if bad:
         die(f"{bad} not caught")

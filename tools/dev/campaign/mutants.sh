@@ -1,5 +1,5 @@
-# ./dev campaign mutants [--minutes M] [--from NAME] [NAME...]: checks that the tests detect
-# deliberate faults
+# ./dev campaign mutants [--minutes M] [--shuffle SEED] [--from NAME] [NAME...]: checks that the tests
+# detect deliberate faults
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 

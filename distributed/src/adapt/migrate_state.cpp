@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -8,12 +9,15 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
+#include <octetra/distributed/out_of_memory.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/even_roots.hpp"
 #include "adapt/mesh_state.hpp"
 #include "adapt/step_options.hpp"
+#include "history/cut_roots.hpp"
 #include "history/recall_history.hpp"
+#include "history/replay.hpp"
 #include "history/steps_of.hpp"
 #include "history/tagged_to_history.hpp"
 #include "level/incremental/adjacency.hpp"
@@ -45,6 +49,18 @@ void check_ranks(const DistributedMesh& mesh, std::span<const int> rank_of_root)
     }
 }
 
+/// Applies the steps to received roots. OutOfMemory would name rank 0 of a communicator that
+/// contains this process alone, so it is replaced by bad_alloc, for which the migrating
+/// communicator's rank is reported.
+void replay_alone(Arrivals& arrivals, std::size_t step_count) {
+    try {
+        replay(arrivals.part, std::move(arrivals.cuts), step_count);
+    } catch (const OutOfMemory&) {
+        throw std::bad_alloc();
+    }
+    restore_canonical_order(arrivals.part);
+}
+
 /// Collective. Returns the roots that stay and those received, as one part without interfaces, and
 /// the destinations of the vertices of the input.
 MergedPart move_roots(const AdaptiveMesh::State& state, std::span<const int> rank_of_root,
@@ -53,15 +69,17 @@ MergedPart move_roots(const AdaptiveMesh::State& state, std::span<const int> ran
     const Communicator& processes = mesh.processes;
     const Phase phase(processes, "move roots");
     const HasLists has(mesh);
-    const Departures departures = departures_of(mesh, rank_of_root);
+    const Departures departures =
+        departures_of(input_of(mesh), cut_roots_of(steps_of(mesh), mesh.cell_ancestors.first),
+                      {rank_of_root.begin(), rank_of_root.end()});
     destinations = vertex_destinations(departures, state.sharing);
     std::vector<RootMessage> messages;
     for (const auto& inbox : processes.all_to_all(packed_messages(departures))) {
         messages.push_back(RootMessage::unpacked(inbox));
     }
-    const Arrivals arrivals =
-        arrivals_of(messages, has, mesh.attributes_per_point, mesh.level_begin.size());
+    Arrivals arrivals = arrivals_of(messages, has, mesh.attributes_per_point);
     messages.clear();
+    replay_alone(arrivals, mesh.level_begin.size());
     return merge_parts(mesh, departures, arrivals, has);
 }
 

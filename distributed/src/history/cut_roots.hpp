@@ -7,24 +7,11 @@
 
 #include <octetra/core/cut_runs.hpp>
 
+#include "assemble/cut_bytes.hpp"
+
 /// Converts between two forms of a history. Steps are lists over the cells; messages between
 /// processes and blocks of a file group them by root instead.
 namespace octetra::distributed {
-
-/// The patterns of all steps for one root and its descendants: for each step the number of bytes,
-/// and the runs; zero bytes if the step left all its cells whole. Empty for a root that was never
-/// cut.
-using RootBytes = std::span<const std::uint8_t>;
-
-/// The patterns of a process's roots, by local index of the root.
-struct CutRoots {
-    struct Root {
-        std::uint32_t index = 0;
-        std::uint32_t bytes = 0;
-    };
-    std::vector<Root> roots;          ///< the roots that were cut in any step
-    std::vector<std::uint8_t> bytes;  ///< their RootBytes, one after the other
-};
 
 /// Splits steps by root. `Runs` has at_end() and next(), as CutReader has.
 template <class Runs>

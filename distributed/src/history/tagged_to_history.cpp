@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "history/has_lists.hpp"
+#include "assemble/has_lists.hpp"
 #include "history/recall_history.hpp"
 #include "level/known_marker.hpp"
 

@@ -5,9 +5,9 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/migration.hpp>
 
-#include "history/has_lists.hpp"
-#include "migrate/arrivals.hpp"
-#include "migrate/departures.hpp"
+#include "assemble/has_lists.hpp"
+#include "assemble/arrivals.hpp"
+#include "assemble/departures.hpp"
 
 namespace octetra::distributed {
 

@@ -5,7 +5,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/sharing.hpp>
 
-#include "migrate/departures.hpp"
+#include "assemble/departures.hpp"
 
 namespace octetra::distributed {
 

@@ -18,7 +18,7 @@
 #include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/profile.hpp>
 
-#include "setup/ancestors_of_roots.hpp"
+#include "assemble/ancestors_of_roots.hpp"
 #include "setup/find_interfaces.hpp"
 #include "setup/number_check.hpp"
 #include "sharing/sharers.hpp"

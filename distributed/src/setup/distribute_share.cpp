@@ -14,7 +14,7 @@
 
 #include "partition/cell_weights.hpp"
 #include "partition/rcb.hpp"
-#include "setup/ancestors_of_roots.hpp"
+#include "assemble/ancestors_of_roots.hpp"
 #include "setup/find_interfaces.hpp"
 #include "setup/owners.hpp"
 #include "setup/part_vertices.hpp"

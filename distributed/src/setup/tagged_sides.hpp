@@ -11,7 +11,7 @@
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "setup/ancestors_of_roots.hpp"
+#include "assemble/ancestors_of_roots.hpp"
 #include "setup/owners.hpp"
 #include "setup/part_vertices.hpp"
 

@@ -1,14 +1,10 @@
-#include "migrate/arrivals.hpp"
+#include "assemble/arrivals.hpp"
 
 #include <algorithm>
 #include <array>
-#include <new>
 #include <utility>
 
-#include <octetra/distributed/out_of_memory.hpp>
-
-#include "history/replay.hpp"
-#include "setup/ancestors_of_roots.hpp"
+#include "assemble/ancestors_of_roots.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -29,11 +25,11 @@ std::vector<Entry> entries(const std::vector<RootMessage>& messages, auto list, 
         std::uint32_t index = 0;
         for (const auto& entry : messages[m].*list) all.push_back({number_of(entry), m, index++});
     }
-    std::ranges::sort(all);
+    if (!std::ranges::is_sorted(all)) std::ranges::sort(all);  // those of one message are sorted
     return all;
 }
 
-/// Merges the roots of all messages into a part without levels.
+/// Merges the roots of all messages into a part.
 class ArrivalMerger {
 public:
     ArrivalMerger(const std::vector<RootMessage>& messages, const HasLists& has, Arrivals& arrivals)
@@ -43,8 +39,6 @@ public:
         take_tagged(&RootMessage::facets, has.facet_markers, part_->facets, part_->facet_ancestors);
         take_tagged(&RootMessage::edges, has.edge_markers, part_->edges, part_->edge_ancestors);
     }
-
-    CutRoots cuts;
 
 private:
     void take_vertices() {
@@ -81,10 +75,12 @@ private:
             const RootMessage& message = (*messages_)[entry.message];
             const RootMessage::Root& root = message.roots[entry.index];
             if (root.cut_bytes > 0) {
-                cuts.roots.push_back({static_cast<std::uint32_t>(numbers.size()), root.cut_bytes});
+                arrivals_->cuts.roots.push_back(
+                    {static_cast<std::uint32_t>(numbers.size()), root.cut_bytes});
                 const auto bytes =
                     std::span(message.cuts).subspan(cuts_taken[entry.message], root.cut_bytes);
-                cuts.bytes.insert(cuts.bytes.end(), bytes.begin(), bytes.end());
+                auto& all = arrivals_->cuts.bytes;
+                all.insert(all.end(), bytes.begin(), bytes.end());
                 cuts_taken[entry.message] += root.cut_bytes;
             }
             part_->cells.push_back(local(entry, root.corners));
@@ -124,26 +120,13 @@ private:
     std::vector<std::vector<VertexIndex>> local_;  ///< for each message, its vertices
 };
 
-/// Replays the steps on a part whose communicator contains this process alone. OutOfMemory would
-/// name rank 0 of that communicator, so it is replaced by bad_alloc, for which the migrating
-/// communicator's rank is reported.
-void replay_alone(DistributedMesh& part, CutRoots cuts, std::size_t step_count) {
-    try {
-        replay(part, std::move(cuts), step_count);
-    } catch (const OutOfMemory&) {
-        throw std::bad_alloc();
-    }
-}
-
 }  // namespace
 
 Arrivals arrivals_of(const std::vector<RootMessage>& messages, const HasLists& has,
-                     std::size_t attributes_per_point, std::size_t step_count) {
+                     std::size_t attributes_per_point) {
     Arrivals arrivals;
     arrivals.part.attributes_per_point = attributes_per_point;
-    CutRoots cuts = std::move(ArrivalMerger(messages, has, arrivals).cuts);
-    replay_alone(arrivals.part, std::move(cuts), step_count);
-    restore_canonical_order(arrivals.part);
+    (void)ArrivalMerger(messages, has, arrivals);
     return arrivals;
 }
 

@@ -1,4 +1,4 @@
-#include "migrate/root_message.hpp"
+#include "assemble/root_message.hpp"
 
 #include "comm/packed.hpp"
 

@@ -60,6 +60,9 @@ public:
         return {std::move(lost)};
     }
 
+    /// Returns whether any level has changed the mesh.
+    [[nodiscard]] bool is_changed() const { return is_changed_; }
+
     /// Returns the number of levels that changed the mesh.
     int refine(const Selection& selection, Scheme scheme, int levels) {
         // A list of cells refers to the mesh before the first level, and to their descendants
@@ -128,7 +131,7 @@ private:
     History history_;
     Refinement refined_;  ///< the mesh, with the maps from its input
     std::uint64_t max_cells_;
-    bool is_changed_ = false;  ///< whether any level changed the mesh
+    bool is_changed_ = false;
 };
 
 /// Executes a step with the serial reference.
@@ -148,7 +151,7 @@ public:
         bool is_any = false;
         const int done = adapted_->coarsen(step.selection, step.typed.outside, levels, is_any);
         return {levels_done("coarsened", done),
-                idle_levels(done, levels, idle_coarsening_reason(is_any))};
+                idle_levels(done, levels, idle_coarsening_reason(adapted_->is_changed(), is_any))};
     }
     StepDone operator()(const RebalanceStep&) const {
         return {"rebalanced, and no cell moved: most/mean cells 1.00", {}, false};

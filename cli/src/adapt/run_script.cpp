@@ -91,8 +91,9 @@ public:
         const int levels = step.typed.levels;
         bool is_any_marked = false;
         const int done = coarsen(*mesh_, step, followers(levels), is_any_marked);
-        return {levels_done("coarsened", done),
-                idle_levels(done, levels, idle_coarsening_reason(is_any_marked))};
+        return {
+            levels_done("coarsened", done),
+            idle_levels(done, levels, idle_coarsening_reason(is_refined_before_, is_any_marked))};
     }
 
     StepDone operator()(const RebalanceStep&) {

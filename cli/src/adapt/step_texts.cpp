@@ -27,7 +27,10 @@ std::vector<std::string> idle_levels(int done, int levels, std::string_view reas
     return {fmt::format("{} any more after level {} of {}", reason, done, levels)};
 }
 
-std::string_view idle_coarsening_reason(bool is_any_marked) {
+std::string_view idle_coarsening_reason(bool is_refined, bool is_any_marked) {
+    if (!is_refined) {
+        return "the mesh has no refinement history, which only a checkpoint (.octetra) keeps";
+    }
     return is_any_marked ? "no vertex could be removed" : "no cell was marked";
 }
 

@@ -26,8 +26,8 @@ struct StepDone {
 /// Returns the reason why fewer levels than requested changed the mesh; nothing if all did.
 [[nodiscard]] std::vector<std::string> idle_levels(int done, int levels, std::string_view reason);
 
-/// Returns the reason for coarsening.
-[[nodiscard]] std::string_view idle_coarsening_reason(bool is_any_marked);
+/// Returns the reason for coarsening. `is_refined`: whether the mesh has a history.
+[[nodiscard]] std::string_view idle_coarsening_reason(bool is_refined, bool is_any_marked);
 inline constexpr std::string_view idle_refinement_reason = "no cell was marked";
 
 }  // namespace octetra::cli

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -42,6 +43,21 @@ TEST_F(Verify, AcceptsTheResultsOfTheEngines) {
     EXPECT_THAT(expect_status(0, "verify gear.1.ele fine.1.ele --fast").out,
                 HasSubstr("gear.1.ele: valid, as far as --fast checks\n"));
     expect_status(0, "verify gear.1.ele fine.1.ele --min-dihedral 10");
+}
+
+TEST_F(Verify, ReportsThatTheRefinementRuleIsNotCheckedWithoutARequest) {
+    const std::string words =
+        "the refinement rule was not checked: give the request of refine, as in --all --levels 2";
+    EXPECT_THAT(expect_status(0, "verify gear.1.ele fine.1.ele --fast --report r").out,
+                HasSubstr("8T-LE                  skipped  " + words + "\n"));
+    const auto last = report()["checks"].back();
+    EXPECT_EQ(last["name"], "8T-LE");
+    EXPECT_EQ(last["status"], "skipped");
+    EXPECT_EQ(last["note"], words);
+    for (const std::string other :
+         {"verify gear.1.ele --fast", "verify gear.1.ele gear.1.ele --fast --all --levels 0"}) {
+        EXPECT_THAT(expect_status(0, other).out, Not(HasSubstr("refinement rule")));
+    }
 }
 
 TEST_F(Verify, EndsWithStatus1WhereTheAnswerIsNo) {
@@ -100,7 +116,9 @@ TEST_F(Verify, ReportsAsJson) {
     EXPECT_EQ(bad["violations"].size(), count);
     EXPECT_EQ(bad["violations"][0]["code"], "dihedral_too_small");
     EXPECT_EQ(bad["violations"][0]["entities"][0]["kind"], "cell");
-    EXPECT_EQ(bad["checks"].back()["status"], "failed");
+    const auto is_failed = [](const auto& check) { return check["status"] == "failed"; };
+    EXPECT_EQ(std::ranges::count_if(bad["checks"], is_failed), 1);
+    EXPECT_EQ(std::ranges::find_if(bad["checks"], is_failed)->at("name"), "dihedral angles");
 }
 
 TEST_F(Verify, ReadsTheMapsThatRefineWrites) {

@@ -46,6 +46,9 @@ struct VerifyCommandOptions {
 /// Limits the size of a report; all violations are counted.
 constexpr std::size_t described_of_each_code = 100'000;
 
+constexpr std::string_view no_request =
+    "the refinement rule was not checked: give the request of refine, as in --all --levels 2";
+
 /// Parses the options for a coarsened mesh, except for the parts that need the checkpoint.
 Coarsened coarsened_of(const VerifyCommandOptions& given) {
     if (given.before.empty()) {
@@ -180,6 +183,7 @@ bool run(const VerifyCommandOptions& given, const distributed::Communicator& wor
              file_named("--cells", given.refinement.selection.cells_file)},
             {file_named("--report", given.report)});
     });
+    const bool has_no_request = given.before.empty() && !given.second.empty() && !options.request;
     CheckProgress progress;
     if (world.is_first()) options.progress = progress.progress_callback();
     JudgedFiles judged;
@@ -195,6 +199,9 @@ bool run(const VerifyCommandOptions& given, const distributed::Communicator& wor
         verdict = verify_distributed(given, options, judged, world);
     }
     progress.clear();
+    if (has_no_request) {
+        verdict.checks.push_back({"8T-LE", verify::Status::skipped, std::string(no_request)});
+    }
     world.on_first([&] {
         print_verdict(verdict, judged);
         if (!given.report.empty()) write_text(format_json(verdict, judged), given.report);

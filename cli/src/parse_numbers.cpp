@@ -34,9 +34,9 @@ Number parse_number(std::string_view option, std::string_view text, const Range<
         return number;
     }
     const bool too_far = error == std::errc::result_out_of_range && next == end;
-    throw InputError(fmt::format("{} takes a {} from {}, not '{}'{}", option,
-                                 std::integral<Number> ? "whole number" : "number", range.words,
-                                 text, too_far ? "; it is out of range" : ""));
+    throw InputError(fmt::format("{} takes a {} {}{}, not '{}'{}", option,
+                                 std::integral<Number> ? "whole number" : "number", range.before,
+                                 range.words, text, too_far ? "; it is out of range" : ""));
 }
 
 template double parse_number(std::string_view, std::string_view, const Range<double>&);

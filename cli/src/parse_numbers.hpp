@@ -9,12 +9,14 @@
 /// text, and without overflow or underflow.
 namespace octetra::cli {
 
-/// The range of an option: numbers from `low` to `high`, described by `words`, as in "0 to 50".
+/// The range of an option: numbers from `low` to `high`, described by `words`, as in "0 to 50", and
+/// in a sentence by `before` and `words`.
 template <class Number>
 struct Range {
     Number low;
     Number high;
     std::string words;
+    std::string before = "from ";
 };
 
 /// Parses `text` as the value of `option`: a double, or an integer of 32 or 64 bits. Throws

@@ -61,9 +61,10 @@ void check(const Selection& selection) {
     }
     if (selection.random) check(*selection.random, "random");
     if (!selection.max_volume) return;
-    if (!is_between(0, *selection.max_volume, std::numeric_limits<double>::max())) {
+    using Limits = std::numeric_limits<double>;
+    if (!is_between(Limits::denorm_min(), *selection.max_volume, Limits::max())) {
         throw InputError(
-            fmt::format("max_volume takes a number from 0 up, not '{}'", *selection.max_volume));
+            fmt::format("max_volume takes a number above 0, not '{}'", *selection.max_volume));
     }
 }
 

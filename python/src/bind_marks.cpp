@@ -126,7 +126,8 @@ void bind_criteria(py::module_& mark) {
                  criterion<1>([](const Mesh&, const auto& given) -> Selection {
                      return {.max_volume = number_from("volume", given[1])};
                  }),
-                 "bool (cells,): marks the cells with a greater volume. As --max-volume.");
+                 "bool (cells,): marks the cells with a greater volume, a number above 0. As "
+                 "--max-volume.");
 }
 
 }  // namespace

@@ -202,12 +202,13 @@ TEST(Selection, IsRefusedAsTheCommandLineRefusesIt) {
               "random takes a number from 0 to 1, not 'nan'");
     EXPECT_EQ(refused({.random = RandomShare{1e-310, 0}}),
               "random takes a number from 0 to 1, not '1e-310'; it is out of range");
-    EXPECT_EQ(refused({.max_volume = -1}), "max_volume takes a number from 0 up, not '-1'");
-    EXPECT_EQ(refused({.max_volume = nan}), "max_volume takes a number from 0 up, not 'nan'");
+    EXPECT_EQ(refused({.max_volume = -1}), "max_volume takes a number above 0, not '-1'");
+    EXPECT_EQ(refused({.max_volume = 0}), "max_volume takes a number above 0, not '0'");
+    EXPECT_EQ(refused({.max_volume = nan}), "max_volume takes a number above 0, not 'nan'");
     const Selection smallest{.spheres = {{{0, 0, 0}, 0}},
                              .boxes = {{{0, 0, 0}, {0, 0, 0}}},
                              .random = RandomShare{1, 0},
-                             .max_volume = 0};
+                             .max_volume = std::numeric_limits<double>::denorm_min()};
     EXPECT_NO_THROW(check(smallest));
 }
 

@@ -211,7 +211,8 @@ CRITERIA = {
     "sphere takes 4 finite numbers .*'nan,0,0,1'": lambda m: octetra.mark.sphere(m, (NAN, 0, 0), 1),
     "box: each coordinate of the first corner": lambda m: octetra.mark.box(m, (0, 0, 1), (1, 1, 0)),
     "random takes a number from 0 to 1, not '2'": lambda m: octetra.mark.random(m, 2),
-    "max_volume takes a number from 0 up, not '-1'": lambda m: octetra.mark.larger_than(m, -1),
+    "max_volume takes a number above 0, not '-1'": lambda m: octetra.mark.larger_than(m, -1),
+    "max_volume takes a number above 0, not '0'": lambda m: octetra.mark.larger_than(m, 0),
 }
 
 

@@ -95,7 +95,8 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         ->type_name("N")
         ->group(group);
     add_number<double>(subcommand, "--max-volume", options.max_volume,
-                       {0, std::numeric_limits<double>::max(), "0 up"},
+                       {std::numeric_limits<double>::denorm_min(),
+                        std::numeric_limits<double>::max(), "above 0", ""},
                        "cells with a larger volume")
         ->type_name("V")
         ->group(group);

@@ -163,9 +163,9 @@ public:
 private:
     void complete(Selection& selection, const SelectionOptions& typed) const {
         const Mesh& mesh = adapted_->mesh();
-        complete_selection(selection, typed,
-                           {!mesh.regions.empty(), mesh.index_base, mesh.cells.size(),
-                            SharedGroupNames(mesh.group_names)});
+        complete_selection(
+            selection, typed,
+            {mesh.index_base, mesh.cells.size(), SharedGroupNames(mesh.group_names)});
     }
 
     AdaptedByReference* adapted_;
@@ -216,7 +216,7 @@ void adapt_by_reference(const AdaptationOptions& options, const Script& script) 
     check_files(options, script, {}, 1);
     Stopwatch watch;
     AdaptedByReference adapted(read_input(options.input), options.max_cells);
-    check_regions_of(script, WholeMesh(adapted.mesh()).facts());
+    check_regions_of(script, adapted.mesh().regions, ProcessGroup::alone());
     report_line(options.quiet, fmt::format("read {}", options.input.path),
                 adapted.mesh().points.size(), adapted.mesh().cells.size(), watch.lap());
     run(adapted, script, options.quiet, watch);

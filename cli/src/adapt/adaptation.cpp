@@ -88,10 +88,8 @@ distributed::AdaptiveMesh load(const AdaptationOptions& options,
         world, options.input.path, is_given ? partition_of(options.parallel) : rcb, &fields);
 }
 
-/// Collective. Returns the facts of a checkpoint before it is loaded, on the first process, and
-/// checks the steps against them.
-MeshFacts facts_of_checkpoint(const std::string& path, const Script& script,
-                              const distributed::Communicator& world) {
+/// Collective. Returns the facts of a checkpoint before it is loaded, on the first process.
+MeshFacts facts_of_checkpoint(const std::string& path, const distributed::Communicator& world) {
     const distributed::Phase phase(world, "read");
     MeshFacts read;
     world.on_first([&] {
@@ -99,9 +97,7 @@ MeshFacts facts_of_checkpoint(const std::string& path, const Script& script,
         read = {.vertices = facts.vertices_now,
                 .cells = facts.cells_now,
                 .index_base = facts.index_base,
-                .has_regions = facts.has_regions,
                 .group_names = SharedGroupNames(facts.group_names)};
-        check_regions_of(script, read);
         if (facts.state) note(state_is_lost(path));
     });
     return read;
@@ -112,16 +108,14 @@ MeshFacts facts_of_checkpoint(const std::string& path, const Script& script,
 distributed::AdaptiveMesh read_in_parts(const AdaptationOptions& options, const Script& script,
                                         const distributed::Partition& partition,
                                         const distributed::Communicator& world, MeshFacts& read) {
-    const auto check = [&](const MeshFacts& facts) {
-        world.on_first([&] { check_regions_of(script, facts); });
-        read = facts;
-    };
     const auto weigh = [&](const distributed::CellsToWeigh& cells) {
         return predicted_by_steps(cells, script);
     };
-    return distributed::AdaptiveMesh(distributed::read_parts(
-        world, options.input.path, partition,
-        {.read = read_options(options.input), .on_facts = check, .weigh = weigh}));
+    return distributed::AdaptiveMesh(
+        distributed::read_parts(world, options.input.path, partition,
+                                {.read = read_options(options.input),
+                                 .on_facts = [&](const MeshFacts& facts) { read = facts; },
+                                 .weigh = weigh}));
 }
 
 /// Collective. Returns the mesh of which the result is to be a refinement: the input of the
@@ -139,7 +133,7 @@ JudgedMesh input_to_judge(const distributed::AdaptiveMesh& mesh, const Adaptatio
 verify::Request request_of(RefineStep step, const MeshFacts& read,
                            const distributed::Communicator& world) {
     complete_selection(step.selection, step.typed.selection,
-                       {read.has_regions, read.index_base, read.cells, read.group_names}, world);
+                       {read.index_base, read.cells, read.group_names}, world);
     return {step.selection, step.scheme, step.typed.levels};
 }
 
@@ -181,10 +175,11 @@ void adapt(const AdaptationOptions& options, const Script& script,
     MeshFacts read;  // on the first process
     std::vector<distributed::Field> fields;
     const bool has_history = is_checkpoint(options.input.path);
-    if (has_history) read = facts_of_checkpoint(options.input.path, script, world);
+    if (has_history) read = facts_of_checkpoint(options.input.path, world);
     auto adaptive = has_history ? distributed::in_phase(
                                       world, "read", [&] { return load(options, world, fields); })
                                 : read_in_parts(options, script, partition, world, read);
+    check_regions_of(script, adaptive.regions(), world);
     distributed::in_phase(world, "read", [&] { read_fields(adaptive, options.input, fields); });
     const auto report = [&](std::string_view doing) {
         const std::uint64_t cells = world.sum(adaptive.cells().size());

@@ -130,8 +130,7 @@ private:
     void complete(Selection& selection, const SelectionOptions& typed) const {
         const std::uint64_t cells = counts_of(*mesh_).cells;
         const MeshFacts& input = run_->input;
-        complete_selection(selection, typed,
-                           {input.has_regions, input.index_base, cells, input.group_names},
+        complete_selection(selection, typed, {input.index_base, cells, input.group_names},
                            mesh_->processes());
     }
 

@@ -75,9 +75,9 @@ std::vector<float> weights_of(const Mesh& mesh, const PartitionOptions& options)
             "--levels 2");
     }
     Selection selection = parse_selection(typed);
+    check_regions(typed, mesh.regions, ProcessGroup::alone());
     complete_selection(selection, typed,
-                       {!mesh.regions.empty(), mesh.index_base, mesh.cells.size(),
-                        SharedGroupNames(mesh.group_names)});
+                       {mesh.index_base, mesh.cells.size(), SharedGroupNames(mesh.group_names)});
     return distributed::predicted_cells(mesh, selection, parse_scheme(options.refinement),
                                         options.refinement.levels);
 }

@@ -102,8 +102,7 @@ bool judge_and_write(const Mesh& coarse, const Mesh& fine, const RefinementMaps&
 void complete_plan(Plan& plan, const MeshFacts& facts, const RefineOptions& options,
                    const distributed::Communicator& world) {
     complete_selection(plan.selection, options.refinement.selection,
-                       {facts.has_regions, facts.index_base, facts.cells, facts.group_names},
-                       world);
+                       {facts.index_base, facts.cells, facts.group_names}, world);
 }
 
 /// Collective; the first process works while others wait. Returns false if the result is not valid.
@@ -111,7 +110,10 @@ bool refine_by_reference(Plan plan, const RefineOptions& options,
                          const distributed::Communicator& world, Stopwatch& watch) {
     Mesh mesh;
     distributed::in_phase(world, "read", [&] {
-        world.on_first([&] { mesh = read_input(options.input); });
+        world.on_first([&] {
+            mesh = read_input(options.input);
+            check_regions(options.refinement.selection, mesh.regions, ProcessGroup::alone());
+        });
         complete_plan(plan, WholeMesh(mesh).facts(), options, world);
     });
     const auto report_mesh = [&](const char* done) {
@@ -161,6 +163,7 @@ distributed::DistributedMesh read_in_parts(Plan& plan, const RefineOptions& opti
 bool refine_distributed(Plan plan, const RefineOptions& options,
                         const distributed::Communicator& world, Stopwatch& watch) {
     auto parts = read_in_parts(plan, options, world);
+    check_regions(options.refinement.selection, parts.cell_ancestors.markers, world);
     const auto report_mesh = [&](const char* done) {
         if (!world.is_first()) return;
         report(options, fmt::format("{} {}", done, options.input.path), parts.input_vertex_count,

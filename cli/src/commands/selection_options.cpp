@@ -1,6 +1,10 @@
 #include "commands/selection_options.hpp"
 
+#include <algorithm>
+#include <cstring>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -59,6 +63,20 @@ std::vector<Marker> tags_of(const std::string& name, const std::vector<GroupName
     }
     throw InputError(
         fmt::format("--region: no group of cells is called '{}'; there are {}", name, known));
+}
+
+/// Collective, within a transaction. Returns the tags that any process passes.
+std::set<Marker> tags_of_all(std::span<const Marker> of_cells, const ProcessGroup& processes) {
+    const std::set<Marker> own(of_cells.begin(), of_cells.end());
+    const std::vector<Marker> list(own.begin(), own.end());
+    const auto bytes = std::as_bytes(std::span(list));
+    std::set<Marker> tags;
+    for (const ProcessGroup::Bytes& other : processes.of_all({bytes.begin(), bytes.end()})) {
+        std::vector<Marker> received(other.size() / sizeof(Marker));
+        std::memcpy(received.data(), other.data(), other.size());
+        tags.insert(received.begin(), received.end());
+    }
+    return tags;
 }
 
 }  // namespace
@@ -132,15 +150,23 @@ Selection parse_selection(const SelectionOptions& options, std::string_view want
     return selection;
 }
 
-void check_regions(const SelectionOptions& options, bool mesh_has_regions) {
-    if (!options.regions.empty() && !mesh_has_regions) {
-        throw InputError("--region: the cells of this mesh have no region tags");
+void check_regions(const SelectionOptions& options, std::span<const Marker> of_cells,
+                   const ProcessGroup& processes) {
+    if (std::ranges::none_of(options.regions, is_tag)) return;
+    const auto tags = processes.transaction([&] { return tags_of_all(of_cells, processes); });
+    if (tags.empty()) throw InputError("--region: the cells of this mesh have no region tags");
+    for (const std::string& text : options.regions) {
+        if (!is_tag(text) || tags.contains(parse_tag(text))) continue;
+        constexpr std::ptrdiff_t shown = 20;
+        const bool has_more = std::ssize(tags) > shown;
+        const auto end = has_more ? std::next(tags.begin(), shown) : tags.end();
+        throw InputError(fmt::format("--region: no cell has region tag {}; there are {}{}", text,
+                                     fmt::join(tags.begin(), end, ", "), has_more ? ", ..." : ""));
     }
 }
 
 void complete_selection(Selection& selection, const SelectionOptions& options,
                         const SelectableMesh& mesh) {
-    check_regions(options, mesh.has_regions);
     selection.regions.clear();
     for (const std::string& text : options.regions) {
         if (is_tag(text)) {

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <octetra/core/group_names.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/process_group.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/communicator.hpp>
 
@@ -43,14 +45,16 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
 
 /// The facts of a mesh that a selection refers to.
 struct SelectableMesh {
-    bool has_regions = false;
     std::uint32_t index_base = 0;
     std::uint64_t cells = 0;
     SharedGroupNames group_names;
 };
 
-/// Throws InputError if regions are selected in a mesh that has none.
-void check_regions(const SelectionOptions& options, bool mesh_has_regions);
+/// Collective. Throws InputError, the same on all processes, if a region is selected by a tag that
+/// no cell of the mesh has. `of_cells`: the tags of this process's cells or of their roots, in any
+/// order.
+void check_regions(const SelectionOptions& options, std::span<const Marker> of_cells,
+                   const ProcessGroup& processes);
 
 /// Adds the remaining parts: the cell list and the tags of regions given by name; checks them
 /// against the mesh. Throws InputError.

@@ -112,9 +112,10 @@ verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions o
     const Mesh second = read_without_checks(given.second);
     judged = {given.second, given.first, second.index_base, first.index_base};
     if (options.request) {
-        complete_selection(options.request->selection, given.refinement.selection,
-                           {!first.regions.empty(), first.index_base, first.cells.size(),
-                            SharedGroupNames(first.group_names)});
+        check_regions(given.refinement.selection, first.regions, ProcessGroup::alone());
+        complete_selection(
+            options.request->selection, given.refinement.selection,
+            {first.index_base, first.cells.size(), SharedGroupNames(first.group_names)});
     }
     std::optional<RefinementMaps> maps;
     if (!given.maps.empty()) {
@@ -156,10 +157,10 @@ verify::Verdict verify_distributed(const VerifyCommandOptions& given, verify::Ve
     judged = {given.second, given.first, second.lists.index_base, index_base};
     if (options.request) {
         Selection& selection = options.request->selection;
-        complete_selection(selection, given.refinement.selection,
-                           {!first.lists.regions.empty(), index_base, first.totals.cells,
-                            SharedGroupNames(first.lists.group_names)},
-                           world);
+        check_regions(given.refinement.selection, first.lists.regions, world);
+        complete_selection(
+            selection, given.refinement.selection,
+            {index_base, first.totals.cells, SharedGroupNames(first.lists.group_names)}, world);
     }
     RefinementMaps maps;
     if (!given.maps.empty()) {

@@ -100,10 +100,11 @@ void check_lists_of(const Script& script) {
     });
 }
 
-void check_regions_of(const Script& script, const MeshFacts& input) {
+void check_regions_of(const Script& script, std::span<const Marker> of_cells,
+                      const ProcessGroup& processes) {
     check_each(script, [&](const ScriptStep& step) {
         const SelectionOptions* criteria = criteria_of(step.step);
-        if (criteria != nullptr) check_regions(*criteria, input.has_regions);
+        if (criteria != nullptr) check_regions(*criteria, of_cells, processes);
     });
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include <octetra/core/mesh_source.hpp>
+#include <octetra/core/mesh.hpp>
+#include <octetra/core/process_group.hpp>
 
 #include "commands/distinct_files.hpp"
 #include "commands/mesh_options.hpp"
@@ -24,7 +26,9 @@ void check_outputs_of(const Script& script, const InputOptions& input,
 /// Throws for a list of cells that cannot be parsed.
 void check_lists_of(const Script& script);
 
-/// Throws for selected regions if the mesh has none.
-void check_regions_of(const Script& script, const MeshFacts& input);
+/// Collective. Throws for a region tag that no cell of MESH has. `of_cells`: the tags of this
+/// process's cells, in any order.
+void check_regions_of(const Script& script, std::span<const Marker> of_cells,
+                      const ProcessGroup& processes);
 
 }  // namespace octetra::cli

@@ -17,11 +17,7 @@ std::string refined_line(int levels, int ranks) {
 void note_idle_levels(const RefineOptions& options, int levels) {
     if (options.refinement.levels == 0) return note("--levels 0: the mesh is unchanged");
     if (levels == options.refinement.levels) return;
-    const bool asks_for_regions = !options.refinement.selection.regions.empty();
-    note(levels == 0 ? fmt::format("no cell was marked: the mesh is unchanged{}",
-                                   asks_for_regions ? "; octetra info MESH shows how many cells "
-                                                      "each region has"
-                                                    : "")
+    note(levels == 0 ? "no cell was marked: the mesh is unchanged"
                      : fmt::format("no cell was marked any more after level {} of {}", levels,
                                    options.refinement.levels));
 }

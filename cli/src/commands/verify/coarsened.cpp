@@ -12,10 +12,11 @@ namespace octetra::cli {
 verify::Verdict judge_coarsened(const Coarsened& asked, const Mesh& after, const std::string& name,
                                 const verify::VerifyOptions& options, JudgedFiles& judged) {
     const Checkpoint before = read_checkpoint(asked.before);
+    check_regions(asked.typed.selection, before.input.regions, ProcessGroup::alone());
     verify::CoarseningRequest request{asked.selection, asked.typed.outside, asked.typed.levels};
     complete_selection(request.may_coarsen, asked.typed.selection,
-                       {!before.input.regions.empty(), before.input.index_base,
-                        before.facts.cells_now, SharedGroupNames(before.facts.group_names)});
+                       {before.input.index_base, before.facts.cells_now,
+                        SharedGroupNames(before.facts.group_names)});
     judged = {.fine = name,
               .coarse = asked.before,
               .fine_index_base = after.index_base,

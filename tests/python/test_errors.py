@@ -144,6 +144,9 @@ DIFFERENT = {
     "other ghosts": lambda m: m.ghosts(wrong_here("vertex", "face")),
     "another partition": lambda m: octetra.read(
         "cube.mesh", partition=wrong_here("block", "rcb")),
+    "another scheme": lambda m: m.refine(None, scheme=wrong_here("4t", "8t")),
+    "another limit": lambda m: m.refine(None, max_cells=wrong_here(5, None)),
+    "another balance": lambda m: m.rebalance(most_over_mean=wrong_here(1.5, 1.1)),
     "another angle": lambda m: m.verify(min_dihedral=wrong_here(1.0, None)),
     "another speed": lambda m: m.verify(fast=wrong_here(True, False)),
 }

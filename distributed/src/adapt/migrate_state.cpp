@@ -43,9 +43,10 @@ void check_ranks(const DistributedMesh& mesh, std::span<const int> rank_of_root)
     }
     for (const int rank : rank_of_root) {
         if (rank >= 0 && rank < processes.size()) continue;
-        throw InputError(
-            fmt::format("rank {}: a cell is assigned to rank {}, but there are only {} ranks",
-                        processes.rank(), rank, processes.size()));
+        throw InputError(fmt::format(
+            "rank {}: a cell is assigned to rank {}, but there {}", processes.rank(), rank,
+            processes.size() == 1 ? "is only 1 rank"
+                                  : fmt::format("are only {} ranks", processes.size())));
     }
 }
 

@@ -1,5 +1,9 @@
 #include "adapt/step_options.hpp"
 
+#include <array>
+#include <string>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
@@ -7,17 +11,35 @@
 namespace octetra::distributed {
 namespace {
 
-template <class Options>
-void check_all_same(const Communicator& processes, const Options& options) {
-    if (options == processes.of_rank(0, options)) return;
-    throw InputError(
-        fmt::format("rank {}: options of the step are not those of rank 0", processes.rank()));
+std::string_view word_of(Scheme scheme) {
+    constexpr std::array<std::string_view, 3> words{"8t", "4t", "2t"};
+    return words[static_cast<std::size_t>(scheme)];
 }
+
+std::string_view word_of(Synchronisation synchronisation) {
+    return synchronisation == Synchronisation::gateway ? "gateway" : "neighbour";
+}
+
+/// Throws InputError if an option of this process differs from that of the first.
+struct Check {
+    int rank;
+
+    void operator()(std::string_view name, const auto& own, const auto& of_first) const {
+        ProcessGroup::check_same_as_first(rank, name, fmt::to_string(own),
+                                          fmt::to_string(of_first));
+    }
+};
 
 }  // namespace
 
 void check_same(const Communicator& processes, const StepOptions& options) {
-    check_all_same(processes, options);
+    const StepOptions first = processes.of_rank(0, options);
+    if (options == first) return;
+    const Check check{processes.rank()};
+    check("scheme", word_of(options.scheme), word_of(first.scheme));
+    check("synchronisation", word_of(options.synchronisation), word_of(first.synchronisation));
+    check("max_cells", options.max_cells, first.max_cells);
+    check("is_last", options.is_last, first.is_last);
 }
 
 void check_same(const Communicator& processes, const BalanceOptions& options) {
@@ -28,7 +50,12 @@ void check_same(const Communicator& processes, const BalanceOptions& options) {
             "given is {}",
             options.most_over_mean));
     }
-    check_all_same(processes, options);
+    const BalanceOptions first = processes.of_rank(0, options);
+    if (options == first) return;
+    const Check check{processes.rank()};
+    check("most_over_mean", options.most_over_mean, first.most_over_mean);
+    check("only_if_it_pays", options.only_if_it_pays, first.only_if_it_pays);
+    check("may_forget_history", options.may_forget_history, first.may_forget_history);
 }
 
 }  // namespace octetra::distributed

@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 
+#include <cstddef>
 #include <cstring>
 #include <type_traits>
 
@@ -7,6 +8,8 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/mesh.hpp>
+
+#include "arguments.hpp"
 
 namespace octetra::python {
 namespace {
@@ -19,8 +22,20 @@ bool is_whole(const py::array& array) {
     return array.dtype().kind() == 'i' || array.dtype().kind() == 'u';
 }
 
+/// Refuses an array of objects, which numpy makes of integers that exceed 64 bits, and of what is
+/// no number, if an element explains why numpy made it.
+void refuse_object(const std::string& name, const std::string& expected, const py::array& given) {
+    for (const py::handle& object : given.attr("flat")) {
+        if (!py::isinstance<py::int_>(object)) refuse(name, expected, object);
+        if (object.attr("bit_length")().cast<std::size_t>() > 64) {
+            refuse(name, "integers that fit into 64 bits", object);
+        }
+    }
+}
+
 [[noreturn]] void refuse_array(const std::string& name, const std::string& expected,
                                const py::array& given) {
+    if (given.dtype().kind() == 'O') refuse_object(name, expected, given);
     throw InputError(fmt::format("{} must be {}, not {} of shape {}", name, expected,
                                  py::str(given.dtype()).cast<std::string>(),
                                  py::str(given.attr("shape")).cast<std::string>()));

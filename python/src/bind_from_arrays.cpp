@@ -43,6 +43,8 @@ od::MeshPart part_of(const Arguments& arguments) {
     const auto [points, cells, regions, facets, facet_markers, edges, edge_markers, vertex_numbers,
                 point_markers, point_attributes, cell_numbers, facet_numbers, edge_numbers,
                 index_base, comm] = arguments.values<15>();
+    if (points.is_none()) refuse("points", "numbers of shape (n, 3)", points);
+    if (cells.is_none()) refuse("cells", "integers of shape (m, 4), numbers of points", cells);
     od::MeshPart part;
     part.points = values_of<Point>("points", points);
     part.vertex_numbers = numbers_of_points(vertex_numbers, part.points.size());

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "arguments.hpp"
 #include "collective.hpp"
 
 namespace octetra::python {
@@ -17,12 +18,10 @@ py::array Values::like(std::size_t new_count, const void* data,
 
 Values values_for(const py::handle& given, std::size_t expected, const std::string& entities) {
     const py::array array = py::module_::import("numpy").attr("ascontiguousarray")(given);
+    if (array.dtype().attr("hasobject").cast<bool>()) refuse("values", "numbers", given);
     const auto shape = py::str(py::handle(array).attr("shape")).cast<std::string>();
     if (static_cast<std::size_t>(array.shape(0)) != expected) {
         throw InputError(fmt::format("values of shape {} for {} {}", shape, expected, entities));
-    }
-    if (array.dtype().attr("hasobject").cast<bool>()) {
-        throw InputError("values must be numbers, not objects of Python");
     }
     std::size_t components = 1;
     for (py::ssize_t k = 1; k < array.ndim(); ++k) {

@@ -32,6 +32,8 @@ CASES = {
     "too many cells": lambda m: m.refine(np.ones(cells_of(m), bool), max_cells=10),
     "a number of cells below none": lambda m: m.refine(None, max_cells=wrong_here(-1, 10**6)),
     "a number of cells that is a word": lambda m: m.refine_edges([], max_cells=wrong_here("few", None)),
+    "a cell of more than 64 bits": lambda m: m.refine(cells=wrong_here([1, 10**30], [])),
+    "a cell that is a word": lambda m: m.refine(cells=wrong_here([1, None], [])),
     "a cell below the first": lambda m: m.refine(cells=wrong_here([3, -1], [])),
     "a share that is no number": lambda m: m.rebalance(most_over_mean=wrong_here(float("nan"), 1.1)),
     "a share below the mean": lambda m: m.refine_evenly(most_over_mean=wrong_here(0.5, 0.5)),
@@ -47,6 +49,8 @@ CASES = {
     "a folder that is not there": lambda m: m.save("/no/such/folder/state.octetra"),
     "a field of another size": lambda m: m.save(
         "no.octetra", vertex_fields={"u": np.ones(len(m.points) + wrong_here(1, 0))}),
+    "a field of nothing": lambda m: m.save(
+        "no.octetra", vertex_fields={"u": wrong_here(None, np.ones(len(m.points)))}),
     "a field of complex numbers": lambda m: m.write(
         "no.vtu", cell_fields={"u": np.ones(cells_of(m), wrong_here(complex, float))}),
     "values of copies": lambda m: m.vertex_sharing.update_copies(np.ones(wrong_here(1, 2))),
@@ -64,6 +68,8 @@ CASES = {
     "a partition": lambda m: octetra.load("no.octetra", partition=wrong_here("half", "rcb")),
     "numbers of cells as marks": lambda m: m.refine(wrong_here(np.arange(cells_of(m)), None)),
     "few numbers of cells as marks": lambda m: m.refine(wrong_here([3, 1], None)),
+    "no points": lambda m: octetra.from_arrays(wrong_here(None, []), []),
+    "no cells": lambda m: octetra.from_arrays([], wrong_here(None, [])),
     "an inverted cell": lambda m: octetra.from_arrays(
         [[0, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, 1]], wrong_here([[0, 1, 2, 3]], [])),
     "points in a plane": lambda m: octetra.from_arrays(np.zeros((4, wrong_here(2, 3))), []),
@@ -76,11 +82,19 @@ CASES = {
 WORDS = {
     "a number of cells below none": "max_cells must be an integer from 0 to 18446744073709551615, not -1",
     "a number of cells that is a word": "max_cells must be an integer .*, not 'few'",
+    "a cell of more than 64 bits": f"cells must be integers that fit into 64 bits, not {10**30}$",
+    "a cell that is a word": r"cells must be integers of shape \(n,\), not None$",
+    "marks of nothing": "marks must be a boolean or integer for each of .* cells, not <object object at",
+    "no points": r"points must be numbers of shape \(n, 3\), not None$",
+    "no cells": r"cells must be integers of shape \(m, 4\), numbers of points, not None$",
+    "another rank": "a cell is assigned to rank 99, but there "
+                    + ("is only 1 rank$" if world.size == 1 else f"are only {world.size} ranks$"),
     "a cell below the first": "cells must be integers from 0; the least is -1",
     "a cell that is not there": "cells has number 1000000, and this rank has",
     "a share that is no number": "most_over_mean: .*, from 1; given is nan",
     "a share below the mean": "most_over_mean: .*, from 1; given is 0.5",
     "a field of another size": r"field 'u': values of shape \(\d+,\) for \d+ vertices",
+    "a field of nothing": "field 'u': values must be numbers, not None$",
     "a field of complex numbers": "field 'u': values of type complex128: only float64",
     "numbers of cells as marks": "marks .* must be 0 or one other value, .* as cells=",
     "few numbers of cells as marks": r"marks must .* cells \(numbers of cells are passed as cells=\), not",
@@ -160,6 +174,12 @@ def test_an_argument_that_differs_on_one_rank_is_refused_alike_on_all(mesh, case
     said = world.allgather(str(raised.value))
     assert said == [said[0]] * world.size
     assert mesh.verify()
+
+
+def test_a_file_that_is_no_checkpoint_is_refused_with_the_function_that_reads_it(cube):
+    words = r"cube.mesh: is not a checkpoint: .*; octetra.read\(\), .*, reads meshes of other formats$"
+    with pytest.raises(octetra.InputError, match=words):
+        octetra.load(cube)
 
 
 def test_an_intercommunicator_is_refused():

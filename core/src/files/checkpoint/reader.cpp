@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,13 +14,23 @@
 namespace octetra {
 namespace {
 
+[[noreturn]] void refuse_as_checkpoint(const InputFile& file, std::string_view reason) {
+    const char* const hint =
+        is_checkpoint(file.path())
+            ? ""
+            : "; octetra.read(), in C++ AdaptiveMesh::read(), reads meshes of other formats";
+    file.fail(fmt::format("is not a checkpoint: {}{}", reason, hint));
+}
+
 CheckpointTrailer read_trailer(const InputFile& file) {
     CheckpointHeader header;
     CheckpointTrailer trailer;
-    if (file.size() < sizeof header) file.fail("is not a checkpoint: the file is too short");
+    if (file.size() < sizeof header) {
+        refuse_as_checkpoint(file, "the file is too short");
+    }
     file.read(0, &header, sizeof header);
     if (header.magic != checkpoint_magic) {
-        file.fail("is not a checkpoint: it does not begin with the signature");
+        refuse_as_checkpoint(file, "it does not begin with the signature");
     }
     if (header.byte_order != CheckpointHeader{}.byte_order) {
         file.fail("the byte order differs from that of this machine");

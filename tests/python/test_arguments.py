@@ -3,6 +3,8 @@ functions, in words that name the argument, what is expected and what was passed
 
 import collections
 import inspect
+import pathlib
+import re
 
 import numpy as np
 import pytest
@@ -207,3 +209,28 @@ def test_functions_have_signatures_and_no_name_of_cpp(mesh):
 
 def test_the_docstring_of_save_names_its_defaults():
     assert "0.0, 0 or ''" in octetra.Mesh.save.__doc__ and "control characters" in octetra.Mesh.save.__doc__
+
+
+def documented(kind):
+    """The functions in a row of the table of collective and local functions in docs/python.md."""
+    page = pathlib.Path(__file__).parents[2] / "docs" / "python.md"
+    row = re.search(rf"^\| {kind} \|.*$", page.read_text(), re.MULTILINE).group().rsplit(" | ", 1)[1]
+    names, prefix = set(), ""
+    for name in re.findall(r"`([\w.]+)`", row.replace("`mesh.points`", "")):
+        prefix, _, last = name.rpartition(".") if "." in name else (prefix, "", name)
+        names.add(f"{prefix}.{last}")
+    return names
+
+
+def test_the_page_says_which_functions_are_collective():
+    kinds = {"collective": set(), "local": set()}
+    scopes = {"octetra": octetra, "octetra.mark": octetra.mark, "octetra.quality": octetra.quality}
+    scopes |= {name: thing for name, thing in vars(octetra).items() if isinstance(thing, type)}
+    for scope, members in scopes.items():
+        for name, member in vars(members).items():
+            if callable(member) and not isinstance(member, type) and not name.startswith("_"):
+                is_collective = member.__doc__.startswith("Collective.")
+                kinds["collective" if is_collective else "local"].add(f"{scope}.{name}")
+    assert octetra.MeshSeries.__init__.__doc__.startswith("Collective.")
+    kinds["collective"].add("octetra.MeshSeries")
+    assert {kind: documented(kind) for kind in kinds} == kinds

@@ -24,7 +24,6 @@
 #include "files/medit/medit.hpp"
 #include "files/output/losses.hpp"
 #include "files/output/places.hpp"
-#include "files/stretches/readers.hpp"
 #include "files/tetgen/tetgen.hpp"
 #include "files/vtk/vtu.hpp"
 #include "files/xdmf/xdmf.hpp"

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/core/mesh_source.hpp>
 
 #include "files/input/growing_mesh.hpp"
@@ -17,6 +19,10 @@ namespace octetra {
 /// requires. For a sink, reads the file twice, because elements of all kinds are counted together,
 /// but a sink must know the number of each kind in advance.
 void read_gmsh(const std::filesystem::path& path, const ReadOptions& options, GrowingMesh& growing);
+
+/// Collective, as read_mesh_share().
+[[nodiscard]] std::optional<MeshShare> read_gmsh_share(const std::filesystem::path& path,
+                                                       const ProcessGroup& group);
 
 /// Collective. The tag of an element is its position in the file. There is an entity for each
 /// marker of a kind, and a block for each run of elements with the same entity, so the order of the

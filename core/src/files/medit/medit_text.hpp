@@ -11,10 +11,9 @@
 
 #include "files/input/line_reader.hpp"
 #include "files/input/tokens.hpp"
-#include "files/stretches/keyword_scan.hpp"
-#include "files/stretches/readers.hpp"
-#include "files/stretches/shares.hpp"
-#include "files/stretches/status.hpp"
+#include "files/shares/keyword_scan.hpp"
+#include "files/shares/shares.hpp"
+#include "files/shares/status.hpp"
 
 namespace octetra {
 

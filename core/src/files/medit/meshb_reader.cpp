@@ -9,7 +9,7 @@
 #include "files/medit/medit.hpp"
 #include "files/medit/meshb_layout.hpp"
 #include "files/medit/meshb_rows.hpp"
-#include "files/stretches/shares.hpp"
+#include "files/shares/shares.hpp"
 
 namespace octetra {
 namespace {

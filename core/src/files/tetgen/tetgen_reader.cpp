@@ -14,8 +14,7 @@
 #include "files/input/fields.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/input/line_reader.hpp"
-#include "files/stretches/readers.hpp"
-#include "files/stretches/shares.hpp"
+#include "files/shares/shares.hpp"
 #include "files/tetgen/lines.hpp"
 #include "files/tetgen/tetgen.hpp"
 

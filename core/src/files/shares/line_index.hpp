@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "files/stretches/status.hpp"
+#include "files/shares/status.hpp"
 
 namespace octetra {
 

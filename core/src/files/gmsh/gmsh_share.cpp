@@ -9,23 +9,23 @@
 #include <fmt/format.h>
 
 #include "files/gmsh/binary_input.hpp"
+#include "files/gmsh/blocks.hpp"
 #include "files/gmsh/entity_groups.hpp"
 #include "files/gmsh/format_line.hpp"
+#include "files/gmsh/gmsh.hpp"
 #include "files/gmsh/group_names.hpp"
+#include "files/gmsh/line_input.hpp"
+#include "files/gmsh/listed_again.hpp"
+#include "files/gmsh/node_tags.hpp"
 #include "files/gmsh/section_order.hpp"
 #include "files/gmsh/sections_2.hpp"
 #include "files/gmsh/sections_4.hpp"
+#include "files/gmsh/share_intake.hpp"
 #include "files/input/fields.hpp"
 #include "files/input/finish_share.hpp"
-#include "files/stretches/gmsh_blocks.hpp"
-#include "files/stretches/gmsh_line_input.hpp"
-#include "files/stretches/gmsh_listed_again.hpp"
-#include "files/stretches/gmsh_node_tags.hpp"
-#include "files/stretches/gmsh_share_intake.hpp"
-#include "files/stretches/line_index.hpp"
-#include "files/stretches/readers.hpp"
-#include "files/stretches/shares.hpp"
-#include "files/stretches/status.hpp"
+#include "files/shares/line_index.hpp"
+#include "files/shares/shares.hpp"
+#include "files/shares/status.hpp"
 
 namespace octetra {
 namespace {

@@ -14,9 +14,9 @@
 #include "files/medit/medit.hpp"
 #include "files/medit/medit_head.hpp"
 #include "files/medit/sol_sections.hpp"
-#include "files/stretches/keyword_scan.hpp"
-#include "files/stretches/shares.hpp"
-#include "files/stretches/status.hpp"
+#include "files/shares/keyword_scan.hpp"
+#include "files/shares/shares.hpp"
+#include "files/shares/status.hpp"
 
 namespace octetra {
 namespace {

@@ -13,9 +13,9 @@
 
 #include "files/gmsh/group_names.hpp"
 #include "files/gmsh/ignored.hpp"
+#include "files/gmsh/node_tags.hpp"
 #include "files/gmsh/row_error.hpp"
 #include "files/input/growing_mesh.hpp"
-#include "files/stretches/gmsh_node_tags.hpp"
 
 namespace octetra::gmsh {
 

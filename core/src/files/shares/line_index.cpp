@@ -1,4 +1,4 @@
-#include "files/stretches/line_index.hpp"
+#include "files/shares/line_index.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "files/input/input_file.hpp"
-#include "files/stretches/shares.hpp"
+#include "files/shares/shares.hpp"
 
 namespace octetra {
 namespace {

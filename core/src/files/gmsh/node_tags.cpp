@@ -1,4 +1,4 @@
-#include "files/stretches/gmsh_node_tags.hpp"
+#include "files/gmsh/node_tags.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "files/stretches/shares.hpp"
+#include "files/shares/shares.hpp"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "files/gmsh/text_input.hpp"
-#include "files/stretches/line_index.hpp"
+#include "files/shares/line_index.hpp"
 
 namespace octetra::gmsh {
 

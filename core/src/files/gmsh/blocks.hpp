@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "files/stretches/shares.hpp"
-#include "files/stretches/status.hpp"
+#include "files/shares/shares.hpp"
+#include "files/shares/status.hpp"
 
 /// Sections that consist of blocks, each with a header that has the number of its rows: the
 /// position of a block follows from the one before. The first process reads the headers and

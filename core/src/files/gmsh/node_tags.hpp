@@ -8,7 +8,7 @@
 #include <octetra/core/mesh.hpp>
 
 #include "files/gmsh/node_numbers.hpp"
-#include "files/stretches/status.hpp"
+#include "files/shares/status.hpp"
 
 namespace octetra::gmsh {
 

@@ -1,4 +1,4 @@
-#include "files/stretches/keyword_scan.hpp"
+#include "files/shares/keyword_scan.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -8,7 +8,7 @@
 #include "files/input/fields.hpp"
 #include "files/input/input_file.hpp"
 #include "files/input/line_reader.hpp"
-#include "files/stretches/shares.hpp"
+#include "files/shares/shares.hpp"
 
 namespace octetra {
 namespace {

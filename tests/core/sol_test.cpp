@@ -117,6 +117,19 @@ TEST(SolReader, IsSharedByProcessesWhereARowIsOnALine) {
     EXPECT_TRUE(is_read_together(folder.write("v.sol", text), {1000, 3}));
 }
 
+TEST(SolReader, NotesTheSameLinesIfProcessesShareTheFile) {
+    std::string text = head + "SolAtTriangles\n100\n1 1\n";
+    for (int i = 0; i < 100; ++i) text += std::to_string(i) + "\n";
+    text += "Time\n0.5\nSolAtVertices\n3\n1 1\n1\n2\n3\nIterations\n7\n";
+    const TemporaryFolder folder;
+    const auto file = folder.write("v.sol", text);
+    EXPECT_TRUE(is_read_together(file, {3, 0}));  // compares notes
+    const std::vector<std::string> notes = read_sol(file, EntityCounts{3, 0}).notes;
+    ASSERT_EQ(notes.size(), 4U);
+    EXPECT_THAT(notes[1], HasSubstr("v.sol:106: the 1 entries of Time are not kept"));
+    EXPECT_THAT(notes[2], HasSubstr("v.sol:114: the 1 entries of Iterations are not kept"));
+}
+
 TEST(SolReader, NotesWhatIsDiscarded) {
     const SolFields read = read_text(
         "Time 0.5\nIterations 7\nSolAtTriangles 2 1 1 8 9\nSolAtVertices 1 1 1 5\n", {1, 0});

@@ -36,7 +36,7 @@ struct FieldRows {
 
 struct SolFields {
     std::vector<FieldRows> lists;    ///< at most one on vertices and one on cells
-    std::vector<std::string> notes;  ///< on data that is not kept; on one process
+    std::vector<std::string> notes;  ///< on data not kept; equal on all processes
 };
 
 /// Reads a whole file. Values are finite, and less than coordinate_limit, so that means do not
@@ -45,10 +45,10 @@ struct SolFields {
 [[nodiscard]] SolFields read_sol(const std::filesystem::path& path,
                                  const std::optional<EntityCounts>& expected);
 
-/// Collective. Every process reads an even share of the file, in the order of ranks. Returns
-/// nothing on all processes if read_sol() would reject the file, or if its format is not suitable;
-/// text files require one row on each line. If a process is out of memory, it throws std::bad_alloc
-/// and the others return nothing: the caller must inform them.
+/// Collective; not to be called within a transaction. Every process reads an even share of the
+/// file, in the order of ranks. Returns nothing on all processes if read_sol() would reject it, or
+/// if its format is not suitable; text files require one row on each line. Throws std::bad_alloc on
+/// all processes if one of them is out of memory.
 [[nodiscard]] std::optional<SolFields> read_sol_share(const std::filesystem::path& path,
                                                       const EntityCounts& expected,
                                                       const ProcessGroup& group);

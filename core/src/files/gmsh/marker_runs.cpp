@@ -1,11 +1,11 @@
 #include "files/gmsh/marker_runs.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 #include <utility>
 
 #include "files/output/text_slices.hpp"
+#include "files/shares/gather.hpp"
 
 namespace octetra::gmsh {
 namespace {
@@ -16,18 +16,6 @@ struct SliceEnds {
     MarkerRun first;
     MarkerRun last;
 };
-
-template <class T>
-std::vector<std::vector<T>> gather_lists(const ProcessGroup& group, const std::vector<T>& list) {
-    ProcessGroup::Bytes bytes(list.size() * sizeof(T));
-    if (!list.empty()) std::memcpy(bytes.data(), list.data(), bytes.size());
-    std::vector<std::vector<T>> lists;
-    for (const ProcessGroup::Bytes& from : group.of_all(std::move(bytes))) {
-        std::vector<T>& other = lists.emplace_back(from.size() / sizeof(T));
-        if (!from.empty()) std::memcpy(other.data(), from.data(), from.size());
-    }
-    return lists;
-}
 
 /// Appends the next markers of this process, from entity `first` on.
 void add_runs(std::vector<MarkerRun>& runs, std::span<const Marker> markers, std::uint64_t first) {
@@ -49,7 +37,8 @@ public:
         std::vector<SliceEnds> ends;
         if (!runs.empty()) ends.push_back({runs.size(), runs.front(), runs.back()});
         int rank = 0;
-        for (const std::vector<SliceEnds>& of_rank : gather_lists(*group_, ends)) {
+        for (const std::vector<SliceEnds>& of_rank :
+             gather_lists(*group_, std::span<const SliceEnds>(ends))) {
             const bool is_own = rank++ == group_->rank();
             for (const SliceEnds& slice : of_rank) join(slice, is_own, runs);
         }
@@ -98,7 +87,7 @@ std::vector<Marker> distinct_markers(const ProcessGroup& group,
     for (const MarkerRun& run : runs) markers.push_back(run.marker);
     make_set(markers);
     std::vector<Marker> all;
-    for (const auto& of_rank : gather_lists(group, markers)) {
+    for (const auto& of_rank : gather_lists(group, std::span<const Marker>(markers))) {
         all.insert(all.end(), of_rank.begin(), of_rank.end());
     }
     make_set(all);

@@ -1,12 +1,10 @@
 #include "files/gmsh/points_box.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
-#include <utility>
-#include <vector>
 
 #include "files/output/text_slices.hpp"
+#include "files/shares/gather.hpp"
 
 namespace octetra::gmsh {
 namespace {
@@ -33,13 +31,7 @@ PointsBox box_of_points(MeshSource& mesh) {
     for (Window window{0, length, count}; window.begin < count; window.begin += stride) {
         for (const Point& p : mesh.points(window)) include(box, p, p);
     }
-    ProcessGroup::Bytes bytes(sizeof box);
-    std::memcpy(bytes.data(), &box, sizeof box);
-    for (const ProcessGroup::Bytes& from : group.of_all(std::move(bytes))) {
-        PointsBox other;
-        std::memcpy(&other, from.data(), sizeof other);
-        include(box, other.low, other.high);
-    }
+    for (const PointsBox& other : gather(group, box)) include(box, other.low, other.high);
     return {with_positive_zeros(box.low), with_positive_zeros(box.high)};
 }
 

@@ -121,7 +121,7 @@ private:
         if (skipped != skipped_sections.end()) {
             const std::uint64_t count = tokens_.unsigned_integer("the number of entries");
             reader_.check_count(count, skipped->numbers_per_entry, "entries");
-            text_.read_entries(
+            (void)text_.read_entries(
                 count, [](std::uint64_t) {},
                 [&] {
                     for (std::size_t i = 0; i < skipped->numbers_per_entry; ++i) {
@@ -183,7 +183,7 @@ private:
             }
             if (!growing_.is_streaming()) numbers.push_back(number - 1);
         };
-        text_.read_entries(
+        (void)text_.read_entries(
             count, [&](std::uint64_t room) { growing_.expect_numbers(feature, count, room); },
             read_number);
     }
@@ -212,7 +212,7 @@ private:
             if (section.first_line == 0) section.first_line = reader_.line_number();
             if (reader_.line_number() != section.first_line + i) section.consecutive = false;
         };
-        text_.read_entries(
+        (void)text_.read_entries(
             count, [&](std::uint64_t room) { expect(count, room); },
             [&] {
                 read_entry(started);

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <octetra/core/process_group.hpp>
@@ -13,7 +12,6 @@
 #include "files/input/tokens.hpp"
 #include "files/shares/keyword_scan.hpp"
 #include "files/shares/shares.hpp"
-#include "files/shares/status.hpp"
 
 namespace octetra {
 
@@ -21,10 +19,12 @@ namespace octetra {
 /// of the entries of every section and everything else.
 class MeditText {
 public:
-    /// Collective. Throws InputError if the file cannot be read, also on one process only.
+    /// Collective, within a transaction if the group has several processes.
     MeditText(const std::filesystem::path& path, const ProcessGroup& group)
         : reader_(path), tokens_(reader_), group_(&group) {
-        if (is_shared()) find_keywords();
+        if (!is_shared()) return;
+        keywords_ = scan_for_keywords(group, path, reader_.file_size());
+        keywords_.push_back({reader_.file_size(), 1});  // the end follows the last keyword
     }
 
     [[nodiscard]] LineReader& reader() { return reader_; }
@@ -33,27 +33,20 @@ public:
     /// Collective. Reads the `count` entries after the last token: all, or this process's share.
     /// Calls make_room(n), where n is the number of entries to make room for, then read_entry() for
     /// each.
-    void read_entries(std::uint64_t count, auto&& make_room, auto&& read_entry) {
+    /// Returns the number of the first entry read.
+    std::uint64_t read_entries(std::uint64_t count, auto&& make_room, auto&& read_entry) {
         if (is_shared()) return read_share(count, make_room, read_entry);
         make_room(count);
         for (std::uint64_t i = 0; i < count; ++i) read_entry();
+        return 0;
     }
 
 private:
     [[nodiscard]] bool is_shared() const { return group_->size() > 1; }
 
-    /// Collective. Finds the lines with keywords; the end of the file follows the last one.
-    void find_keywords() {
-        CollectiveStatus status(*group_);
-        auto found = scan_for_keywords(status, reader_.path(), reader_.file_size());
-        if (!found) reader_.fail("the keywords cannot be found");
-        keywords_ = std::move(*found);
-        keywords_.push_back({reader_.file_size(), 1});
-    }
-
     /// Collective. The section must have an entry on each line, and end before a line with a
     /// keyword, to which the reader then moves.
-    void read_share(std::uint64_t count, auto&& make_room, auto&& read_entry) {
+    std::uint64_t read_share(std::uint64_t count, auto&& make_room, auto&& read_entry) {
         constexpr std::string_view other_form = "not an entry on each line";
         const std::uint64_t begin = reader_.next_position();
         const auto next = std::ranges::lower_bound(keywords_, begin, {}, &NumberedLine::position);
@@ -69,8 +62,9 @@ private:
             read_entry();
             if (!tokens_.at_line_end() || reader_.line_number() != line) reader_.fail(other_form);
         }
-        (void)number_share(*group_, read, count);
+        const std::uint64_t first = number_share(*group_, read, count);
         seek(next->position, reader_.file_size(), next->number - 1);
+        return first;
     }
 
     void seek(std::uint64_t begin, std::uint64_t end, std::uint64_t lines_before) {

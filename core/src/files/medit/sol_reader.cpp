@@ -1,4 +1,7 @@
-#include <algorithm>
+#include <array>
+#include <exception>
+#include <new>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,16 +15,21 @@
 #include "files/input/byte_reader.hpp"
 #include "files/medit/medit.hpp"
 #include "files/medit/medit_head.hpp"
+#include "files/medit/medit_text.hpp"
 #include "files/medit/sol_sections.hpp"
+#include "files/shares/shares.hpp"
 
 namespace octetra {
 namespace {
 
+/// Reads a text file, or the share of a process of a group.
 class SolTextReader {
 public:
-    SolTextReader(const std::filesystem::path& path, const std::optional<EntityCounts>& expected)
-        : reader_(path), tokens_(reader_), expected_(&expected) {}
+    SolTextReader(const std::filesystem::path& path, const std::optional<EntityCounts>& expected,
+                  const ProcessGroup& group)
+        : text_(path, group), expected_(&expected) {}
 
+    /// Collective.
     SolFields read() {
         take_medit_head(tokens_, reader_);
         while (read_section()) {
@@ -63,12 +71,18 @@ private:
         }
         const SolSection section = take_sol_head(tokens_, reader_, keyword, *expected_);
         FieldRows rows = section.without_rows();
-        const std::uint64_t numbers = section.count * section.width();
-        if (is_kept) rows.values.reserve(numbers);
-        for (std::uint64_t i = 0; i < numbers; ++i) {
-            const double value = take_sol_value(tokens_, reader_);
-            if (is_kept) rows.values.push_back(value);
-        }
+        const std::size_t width = section.width();
+        rows.first = text_.read_entries(
+            section.count,
+            [&](std::uint64_t room) {
+                if (is_kept) rows.values.reserve(room * width);
+            },
+            [&] {
+                for (std::size_t k = 0; k < width; ++k) {
+                    const double value = take_sol_value(tokens_, reader_);
+                    if (is_kept) rows.values.push_back(value);
+                }
+            });
         if (is_kept) {
             fields_.lists.push_back(std::move(rows));
         } else if (section.count > 0) {
@@ -77,32 +91,54 @@ private:
         }
     }
 
-    LineReader reader_;
-    Tokens tokens_;
+    MeditText text_;
+    LineReader& reader_ = text_.reader();
+    Tokens& tokens_ = text_.tokens();
     const std::optional<EntityCounts>* expected_;
     std::array<bool, kept_sol_keywords> is_there_{};
     SolFields fields_;
 };
 
-SolFields read_solb(const std::filesystem::path& path,
-                    const std::optional<EntityCounts>& expected) {
+/// Reads a binary file, or the share of a process of a group.
+SolFields read_solb(const std::filesystem::path& path, const std::optional<EntityCounts>& expected,
+                    const ProcessGroup& group) {
     ByteReader reader(path);
     SolbLayout layout = read_solb_layout(reader, expected);
     SolFields fields{.notes = std::move(layout.notes)};
     for (const SolSection& section : layout.sections) {
         FieldRows rows = section.without_rows();
-        rows.values = read_solb_rows(reader, layout.format, section, 0, section.count);
+        const RowShare share = share_of_rows(section.count, group);
+        rows.first = share.first;
+        rows.values = read_solb_rows(reader, layout.format, section, share.first, share.count);
         fields.lists.push_back(std::move(rows));
     }
     return fields;
+}
+
+/// Collective. Reads this process's share of a file: all of it in a group of one process.
+SolFields read_share(const std::filesystem::path& path, const std::optional<EntityCounts>& expected,
+                     const ProcessGroup& group) {
+    if (path.extension() == ".solb") return read_solb(path, expected, group);
+    return SolTextReader(path, expected, group).read();
 }
 
 }  // namespace
 
 SolFields read_sol(const std::filesystem::path& path, const std::optional<EntityCounts>& expected) {
     const StandardArithmetic standard;
-    if (path.extension() == ".solb") return read_solb(path, expected);
-    return SolTextReader(path, expected).read();
+    return read_share(path, expected, ProcessGroup::alone());
+}
+
+std::optional<SolFields> read_sol_share(const std::filesystem::path& path,
+                                        const EntityCounts& expected, const ProcessGroup& group) {
+    const StandardArithmetic standard;
+    try {
+        return group.transaction([&] { return read_share(path, expected, group); });
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {  // is reported by the process that reads the file alone
+    }
+    return std::nullopt;
 }
 
 bool is_sol(const std::filesystem::path& path) {

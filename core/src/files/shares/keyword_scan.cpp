@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
 #include "files/input/fields.hpp"
 #include "files/input/input_file.hpp"
 #include "files/input/line_reader.hpp"
+#include "files/shares/gather.hpp"
 #include "files/shares/shares.hpp"
 
 namespace octetra {
@@ -79,33 +81,20 @@ std::vector<NumberedLine> keywords_in(const std::filesystem::path& path, const F
 
 }  // namespace
 
-std::optional<std::vector<NumberedLine>> scan_for_keywords(CollectiveStatus& status,
-                                                           const std::filesystem::path& path,
-                                                           std::uint64_t file_size) {
-    const ProcessGroup& group = status.group();
-    ProcessGroup::Bytes own;
-    status.attempt([&] {
-        const FileRange share = share_of_lines(path, {0, file_size}, group.rank(), group.size());
-        const std::vector<NumberedLine> found = keywords_in(path, share);
-        own.resize(found.size() * sizeof(NumberedLine));
-        std::memcpy(own.data(), found.data(), own.size());
-    });
-    if (!status.all_succeeded()) return std::nullopt;
+std::vector<NumberedLine> scan_for_keywords(const ProcessGroup& group,
+                                            const std::filesystem::path& path,
+                                            std::uint64_t file_size) {
+    const FileRange share = share_of_lines(path, {0, file_size}, group.rank(), group.size());
+    const std::vector<NumberedLine> found = keywords_in(path, share);
     std::vector<NumberedLine> keywords;
-    status.attempt([&] {
-        std::uint64_t lines_before = 0;
-        for (const ProcessGroup::Bytes& bytes : group.of_all(std::move(own))) {
-            std::vector<NumberedLine> of_share(bytes.size() / sizeof(NumberedLine));
-            if (of_share.empty()) continue;  // the process has failed
-            std::memcpy(of_share.data(), bytes.data(), bytes.size());
-            for (std::size_t k = 0; k + 1 < of_share.size(); ++k) {
-                keywords.push_back({of_share[k].position, lines_before + of_share[k].number + 1});
-            }
-            lines_before += of_share.back().number;
+    std::uint64_t lines_before = 0;
+    for (const auto& of_share : gather_lists(group, std::span<const NumberedLine>(found))) {
+        for (std::size_t k = 0; k + 1 < of_share.size(); ++k) {
+            keywords.push_back({of_share[k].position, lines_before + of_share[k].number + 1});
         }
-        if (keywords.size() > max_keywords) throw std::length_error("too many keywords");
-    });
-    if (!status.all_succeeded()) return std::nullopt;
+        lines_before += of_share.back().number;
+    }
+    if (keywords.size() > max_keywords) throw std::length_error("too many keywords");
     return keywords;
 }
 

@@ -2,10 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <vector>
 
-#include "files/shares/status.hpp"
+#include <octetra/core/process_group.hpp>
 
 namespace octetra {
 
@@ -15,10 +14,11 @@ struct NumberedLine {
     std::uint64_t number = 0;
 };
 
-/// Collective. Returns the lines of a file whose first token begins with a letter, ascending. Each
-/// process scans its share, and all exchange the results. Returns nothing on all processes if one
-/// has failed, or if there are more than any mesh has.
-[[nodiscard]] std::optional<std::vector<NumberedLine>> scan_for_keywords(
-    CollectiveStatus& status, const std::filesystem::path& path, std::uint64_t file_size);
+/// Collective, within a transaction. Returns the lines of a file whose first token begins with a
+/// letter, ascending. Each process scans its share, and all exchange the results. Throws if there
+/// are more than any mesh has.
+[[nodiscard]] std::vector<NumberedLine> scan_for_keywords(const ProcessGroup& group,
+                                                          const std::filesystem::path& path,
+                                                          std::uint64_t file_size);
 
 }  // namespace octetra

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/sol_fields.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/read_parts.hpp>
@@ -17,12 +18,14 @@
 
 #include "checkpoint/load.hpp"
 #include "distributed/failing_allocations.hpp"
+#include "distributed/gmsh_text.hpp"
 #include "distributed/marked_mesh.hpp"
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 #include "output/canonical_slices.hpp"
 #include "output/own_piece.hpp"
 #include "sharing/vertex_sharing.hpp"
+#include "support/temporary_folder.hpp"
 
 /// Failing allocations in collective operations that have no mesh yet: exchanges and reading.
 namespace octetra::distributed {
@@ -88,7 +91,9 @@ TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
     Mesh mesh = test::marked(test::perturbed_kuhn(2, 0.2, 1), 1);
     for (Marker& marker : mesh.facet_markers) marker = 3;
     for (Marker& marker : mesh.edge_markers) marker = 4;
-    for (const std::string name : {"m.ele", "m.mesh"}) {
+    const auto backwards = [&](std::uint64_t v) { return 2 * (mesh.points.size() - v); };
+    const test::GmshText with_gaps(mesh, {.format = {true, true}, .tag_of = backwards});
+    for (const std::string name : {"m.ele", "m.mesh", "m.msh", "tags_with_gaps.msh"}) {
         const std::filesystem::path file = folder / name;
         const Partition by_coordinates{.method = PartitionMethod::rcb};
         const Selection box{.boxes = {{{0, 0, 0}, {1, 1, 1}}}};
@@ -96,11 +101,29 @@ TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
             return predicted_cells(cells, box, Scheme::eight, 2);
         };
         const ReadPartsOptions options{.read = {}, .on_facts = {}, .weigh = weigh};
-        test::world().on_first([&] { (void)write_mesh(mesh, file); });
+        test::world().on_first([&] {
+            if (name == "tags_with_gaps.msh") return test::write_file(file, with_gaps.text());
+            (void)write_mesh(mesh, file);
+        });
         const std::uint64_t failures = fail_each_allocation(
             [&] { (void)read_parts(test::world(), file, by_coordinates, options); });
         EXPECT_GE(failures, 100U);
     }
+}
+
+TEST(FailingAllocations, OfReadingValuesTogetherAreThrownOnAllProcesses) {
+    if (test::world().size() == 1) return;  // a single process reads without exchanges
+    const test::SharedFolder folder;
+    const std::filesystem::path file = folder / "v.sol";
+    test::world().on_first([&] {
+        test::write_file(file,
+                         "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n4\n1 1\n"
+                         "1\n2\n3\n4\nSolAtTetrahedra\n1\n1 2\n1 2 3\nEnd\n");
+    });
+    const std::uint64_t failures = fail_each_allocation([&] {
+        (void)read_sol_share(file, EntityCounts{4, 1}, test::world());
+    });
+    EXPECT_GE(failures, 10U);
 }
 
 Mesh mesh_with_markers() {

@@ -60,8 +60,8 @@ std::string_view hint_at_case(const fs::path& path) {
         path.native(), hint_at_case(path)));
 }
 
-/// Collective in the group of `growing`, which is a group of one process for Gmsh files. Performs
-/// semantic checks unless the options have only_syntax, which a sink and a share require.
+/// Collective in the group of `growing`. Performs semantic checks unless the options have
+/// only_syntax, which a sink and a share require.
 void read_into(GrowingMesh& growing, const fs::path& path, const ReadOptions& options) {
     switch (format_of(path)) {
         case Format::tetgen: return read_tetgen(path, options, growing);
@@ -121,10 +121,7 @@ void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& option
 std::optional<MeshShare> read_mesh_share(const fs::path& path, const ProcessGroup& group) {
     const StandardArithmetic standard;
     try {
-        return group.transaction([&]() -> std::optional<MeshShare> {
-            if (format_of(path) == Format::gmsh) return read_gmsh_share(path, group);
-            return read_share(path, group);
-        });
+        return group.transaction([&] { return read_share(path, group); });
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {  // is reported by the process that reads the file alone

@@ -34,9 +34,9 @@ struct MeshShare {
 /// The caller performs the others: orientation, repeated cells, tagged facets and edges.
 ///
 /// Returns nothing on all processes if a check fails, a file cannot be read, or its format is not
-/// suitable; text formats require one entity on each line. read_mesh() then reports the error. If a
-/// process is out of memory, it throws std::bad_alloc and the others throw it or return nothing:
-/// the caller must inform them.
+/// suitable; text formats require one entity on each line. read_mesh() then reports the error.
+///
+/// Throws std::bad_alloc on all processes if one of them is out of memory.
 [[nodiscard]] std::optional<MeshShare> read_mesh_share(const std::filesystem::path& path,
                                                        const ProcessGroup& group);
 

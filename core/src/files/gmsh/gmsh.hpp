@@ -1,11 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include <octetra/core/files/mesh_files.hpp>
-#include <octetra/core/mesh_share.hpp>
 #include <octetra/core/mesh_source.hpp>
 
 #include "files/input/growing_mesh.hpp"
@@ -15,14 +13,11 @@
 /// geometry, and these to physical groups, whose tags become markers and region tags.
 namespace octetra {
 
-/// Reads a mesh. Performs semantic checks unless the options have only_syntax, which a sink
-/// requires. For a sink, reads the file twice, because elements of all kinds are counted together,
+/// Collective in the group of `growing`, within a transaction if it has several processes. Reads a
+/// mesh. Performs semantic checks unless the options have only_syntax, which a sink and a share
+/// require. For a sink, reads the file twice, because elements of all kinds are counted together,
 /// but a sink must know the number of each kind in advance.
 void read_gmsh(const std::filesystem::path& path, const ReadOptions& options, GrowingMesh& growing);
-
-/// Collective, as read_mesh_share().
-[[nodiscard]] std::optional<MeshShare> read_gmsh_share(const std::filesystem::path& path,
-                                                       const ProcessGroup& group);
 
 /// Collective. The tag of an element is its position in the file. There is an entity for each
 /// marker of a kind, and a block for each run of elements with the same entity, so the order of the

@@ -7,6 +7,14 @@
 
 namespace octetra::gmsh {
 
+void IgnoredContent::add_up(const ProcessGroup& group) {
+    for (std::uint64_t& count : of_shape) count = group.sum(count);
+    for (std::uint64_t* count :
+         {&interfaces, &degenerate_lines, &in_another_group, &of_missing_entities}) {
+        *count = group.sum(*count);
+    }
+}
+
 std::string error_without_cells(std::uint64_t cells, std::uint64_t facets,
                                 const IgnoredContent& ignored) {
     const auto left = std::ranges::max_element(ignored.of_shape);

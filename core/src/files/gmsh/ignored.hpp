@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 
+#include <octetra/core/process_group.hpp>
+
 #include "files/gmsh/element_types.hpp"
 
 namespace octetra::gmsh {
@@ -22,6 +24,8 @@ struct IgnoredContent {
     void add(Shape shape, std::uint64_t count) {
         of_shape[static_cast<std::size_t>(shape)] += count;
     }
+    /// Collective. Adds up the counts of elements of all processes; names are equal on all.
+    void add_up(const ProcessGroup& group);
 };
 
 /// Returns the error message for a file without cells, depending on the elements that it has; empty

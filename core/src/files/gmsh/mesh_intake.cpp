@@ -120,13 +120,36 @@ void MeshIntake::append(const EntityKind<I, N>& kind,
     }
 }
 
+template <class I, std::size_t N>
+void MeshIntake::remove_first(const EntityKind<I, N>& kind, std::uint64_t count) {
+    auto& list = growing_->mesh.*kind.list;
+    auto& markers = growing_->mesh.*kind.markers;
+    list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count));
+    markers.erase(markers.begin(), markers.begin() + static_cast<std::ptrdiff_t>(count));
+    ignored_.in_another_group += count;
+}
+
+template <class I, std::size_t N>
+void MeshIntake::complete(const EntityKind<I, N>& kind) {
+    if (tags_) tags_->number(growing_->mesh.*kind.list);
+    growing_->all_complete(kind);
+    growing_->count_complete(kind);
+}
+
 void MeshIntake::elements_complete() {
-    growing_->all_complete(edge_kind);
-    growing_->all_complete(facet_kind);
-    growing_->all_complete(cell_kind);
+    complete(edge_kind);
+    complete(facet_kind);
+    complete(cell_kind);
 }
 
 void MeshIntake::check(bool has_lines, std::uint64_t end_position, const Fail& fail) {
+    ignored_.add_up(growing_->group());
+    if (options_->only_syntax && !growing_->is_share()) return;
+    const MeshFacts& facts = growing_->facts();
+    if (const std::string wrong = error_without_cells(facts.cells, facts.facets, ignored_);
+        !wrong.empty()) {
+        fail(wrong, facets_.places.empty() ? end_position : facets_.places.of(0));
+    }
     if (options_->only_syntax) return;
     const Mesh& mesh = growing_->mesh;
     const auto lines_of = [has_lines](const Taken& taken) {
@@ -140,10 +163,6 @@ void MeshIntake::check(bool has_lines, std::uint64_t end_position, const Fail& f
         fail(describe_wrong(wrong, name, markers, mesh, lines_of(of_kind)),
              of_kind.places.of(wrong.entry.value()));
     };
-    if (const std::string wrong = error_without_cells(cells_.count, facets_.count, ignored_);
-        !wrong.empty()) {
-        fail(wrong, facets_.count > 0 ? facets_.places.of(0) : end_position);
-    }
     if (repeated_cells_) {
         const CellPair pair = repeated_cells_->find(mesh.cells, mesh.points.size());
         if (!pair.cell.is_none()) {
@@ -171,6 +190,9 @@ ElementCounts MeshIntake::counts() const { return {cells_.count, facets_.count, 
 template void MeshIntake::make_room(const EntityKind<CellIndex, 4>&, std::uint64_t);
 template void MeshIntake::make_room(const EntityKind<FacetIndex, 3>&, std::uint64_t);
 template void MeshIntake::make_room(const EntityKind<EdgeIndex, 2>&, std::uint64_t);
+template void MeshIntake::remove_first(const EntityKind<CellIndex, 4>&, std::uint64_t);
+template void MeshIntake::remove_first(const EntityKind<FacetIndex, 3>&, std::uint64_t);
+template void MeshIntake::remove_first(const EntityKind<EdgeIndex, 2>&, std::uint64_t);
 template RowError MeshIntake::take(const EntityKind<CellIndex, 4>&,
                                    std::span<const std::array<std::uint64_t, 4>>, Marker,
                                    std::uint64_t, std::uint64_t);

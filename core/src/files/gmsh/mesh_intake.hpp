@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -17,8 +18,8 @@
 #include "files/gmsh/group_names.hpp"
 #include "files/gmsh/ignored.hpp"
 #include "files/gmsh/node_numbers.hpp"
+#include "files/gmsh/node_tags.hpp"
 #include "files/gmsh/position_runs.hpp"
-#include "files/gmsh/row_error.hpp"
 #include "files/input/growing_mesh.hpp"
 
 namespace octetra::gmsh {
@@ -32,9 +33,16 @@ struct ElementCounts {
     friend bool operator==(const ElementCounts&, const ElementCounts&) = default;
 };
 
-/// Builds a mesh from the nodes and elements of a file of any version: maps node tags to vertices,
-/// keeps the supported kinds of elements, counts the rest, and checks. Errors in an entry are
-/// returned as text (empty for none), because only the caller knows its position.
+/// The first erroneous row of a batch.
+struct RowError {
+    std::size_t row = 0;
+    std::string_view what;  ///< empty if no row is erroneous
+};
+
+/// Builds a mesh, or a process's share of it, from the nodes and elements of a file of any version:
+/// maps node tags to vertices, keeps the supported kinds of elements, counts the rest, and checks.
+/// Errors in an entry are returned as text (empty for none), because only the caller knows its
+/// position.
 class MeshIntake {
 public:
     /// `counts` is the number of elements of each kind, required if the mesh is streamed.
@@ -47,7 +55,10 @@ public:
         ignored_.names = read_group_names(in, growing_->mesh.group_names, untagged_);
     }
 
-    void expect_nodes(std::uint64_t count) { growing_->expect_points(count, 0, false); }
+    /// `count`: the number of nodes of the file; `here`: of those that this process reads.
+    void expect_nodes(std::uint64_t count, std::uint64_t here) {
+        growing_->expect_points(count, 0, false, here);
+    }
     /// Tags and points arrive in the same order, but not always alternately. `place` is the
     /// position of the tag.
     void take_tag(std::uint64_t tag, std::uint64_t place, std::uint64_t step) {
@@ -58,9 +69,13 @@ public:
         growing_->mesh.points.push_back(point);
         growing_->point_complete();
     }
-    /// Calls fail(what, place) if a tag occurs twice.
+    /// Collective. Calls fail(what, place) if a tag occurs twice; of a share, throws.
     void nodes_complete(auto&& fail) {
         growing_->points_complete();
+        if (growing_->is_share()) {
+            nodes_ = tags_.emplace(growing_->group(), nodes_).provisional();
+            return;
+        }
         if (const auto repeated = nodes_.complete()) {
             fail(describe(*repeated), node_positions_.of(repeated->node));
         }
@@ -84,9 +99,14 @@ public:
     void skip_interface(std::uint64_t count) { ignored_.interfaces += count; }
     void skip_in_another_group() { ++ignored_.in_another_group; }
     void note_missing_entity(std::uint64_t count) { ignored_.of_missing_entities += count; }
+    /// Removes the first `count` elements of a kind, which are repeated for another group.
+    template <class I, std::size_t N>
+    void remove_first(const EntityKind<I, N>& kind, std::uint64_t count);
+    /// Collective.
     void elements_complete();
 
-    /// Checks properties of the whole mesh. Calls fail(what, place) for an error. `has_lines`:
+    /// Collective. Checks properties of the whole mesh; of a share, only that there are cells if
+    /// there are other elements. Calls fail(what, place) for an error. `has_lines`:
     /// positions are line numbers, so messages may name further ones. `end_position` is the end of
     /// the file.
     using Fail = std::function<void(const std::string& what, std::uint64_t place)>;
@@ -115,11 +135,14 @@ private:
     template <class I, std::size_t N>
     void append(const EntityKind<I, N>& kind, std::span<const std::array<VertexIndex, N>> vertices,
                 Marker marker);
+    template <class I, std::size_t N>
+    void complete(const EntityKind<I, N>& kind);
 
     GrowingMesh* growing_;
     const ReadOptions* options_;
     std::optional<ElementCounts> expected_;
-    NodeNumbers nodes_;
+    NodeNumbers nodes_;             // of a share, once complete: provisional numbers
+    std::optional<NodeTags> tags_;  // of a share
     PositionRuns node_positions_;
     Taken cells_;
     Taken facets_;

@@ -14,6 +14,10 @@ namespace octetra::gmsh {
 /// other tags take 16 bytes per node, and up to twice that while they are added.
 class NodeNumbers {
 public:
+    NodeNumbers() = default;
+    /// Nodes with `count` consecutive tags.
+    NodeNumbers(std::uint64_t first, std::uint64_t count) : first_(first), count_(count) {}
+
     /// Adds the next node.
     void add(std::uint64_t tag) {
         if (others_.empty() && (count_ == 0 || tag == first_ + count_)) {
@@ -45,6 +49,11 @@ public:
     }
 
     [[nodiscard]] std::uint64_t size() const { return count_; }
+    [[nodiscard]] bool are_consecutive() const { return is_consecutive_; }
+    /// Returns the tag of a node, before complete().
+    [[nodiscard]] std::uint64_t tag(std::uint64_t node) const {
+        return is_consecutive_ ? first_ + node : others_[node].first;
+    }
 
 private:
     using TaggedVertex = std::pair<std::uint64_t, VertexIndex>;

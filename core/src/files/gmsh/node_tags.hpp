@@ -1,14 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/process_group.hpp>
 
 #include "files/gmsh/node_numbers.hpp"
-#include "files/shares/status.hpp"
 
 namespace octetra::gmsh {
 
@@ -17,30 +17,20 @@ namespace octetra::gmsh {
 /// answers requests.
 class NodeTags {
 public:
-    /// Collective. `tags` are those of this process's nodes, the first of which has the number
-    /// `first`. Returns nothing on all processes if a tag occurs twice, or if the range of tags is
-    /// too large.
-    [[nodiscard]] static std::optional<NodeTags> make(CollectiveStatus& status,
-                                                      const std::vector<std::uint64_t>& tags,
-                                                      std::uint64_t first);
+    /// Collective, within a transaction. `here`: the nodes of this process, which follow those of
+    /// lower ranks. Throws if a tag occurs twice, or if the range of tags is too large.
+    NodeTags(const ProcessGroup& group, const NodeNumbers& here);
 
-    /// Returns a provisional index for a tag until its number is known, or none() if there is
-    /// certainly no such node.
-    [[nodiscard]] VertexIndex provisional_index(std::uint64_t tag) const {
-        // a lower tag wraps around
-        return tag - least_ < tag_span_ ? VertexIndex{tag - least_} : VertexIndex::none();
-    }
+    /// Returns a map of tags to provisional indices; it has each tag of a node, but also others.
+    [[nodiscard]] NodeNumbers provisional() const { return {least_, tag_span_}; }
 
-    /// Collective. Replaces provisional indices by vertex numbers. Returns false on all processes
-    /// if one of them has no node.
+    /// Collective, within a transaction. Replaces provisional indices by vertex numbers. Throws if
+    /// one of them has no node.
     template <class I, std::size_t N>
-    [[nodiscard]] bool number(CollectiveStatus& status,
-                              IndexVector<I, std::array<VertexIndex, N>>& list) const;
+    void number(IndexVector<I, std::array<VertexIndex, N>>& list) const;
 
 private:
     using Offset = std::uint32_t;  // of a tag from the least one
-
-    NodeTags(std::uint64_t least, std::uint64_t tag_span) : least_(least), tag_span_(tag_span) {}
 
     [[nodiscard]] std::size_t owner_of(Offset offset) const {
         if (!is_dense_) {  // tags may have a common divisor, or be concentrated
@@ -49,15 +39,15 @@ private:
         }
         return offset / block_;
     }
-    [[nodiscard]] bool send_to_owners(CollectiveStatus& status,
-                                      const std::vector<std::uint64_t>& tags, std::uint64_t first);
+    void send_to_owners(const NodeNumbers& here);
     void answer(ProcessGroup::Bytes& offsets) const;
 
+    const ProcessGroup* group_;
     std::uint64_t least_ = 0;
     std::uint64_t tag_span_ = 0;  // the greatest tag minus the least one, plus 1
-    bool are_consecutive_ = false;
+    bool are_consecutive_ = true;
     bool is_dense_ = false;
-    std::uint32_t processes_ = 1;
+    std::uint32_t processes_;
     Offset block_ = 1;                    // offsets per owner, if tags are dense
     NodeNumbers tags_here_;               // the tags that this process owns
     std::vector<std::uint32_t> numbers_;  // their vertex numbers

@@ -21,6 +21,7 @@ public:
         count_ += count;
         expected_ = place + count * runs_.back().step;
     }
+    [[nodiscard]] bool empty() const { return runs_.empty(); }
     [[nodiscard]] std::uint64_t of(std::uint64_t entry) const {
         const auto after = std::ranges::upper_bound(runs_, entry, {}, &Run::first_entry);
         const Run& run = *std::prev(after);

@@ -8,17 +8,17 @@
 
 #include <octetra/core/error.hpp>
 
-#include "files/gmsh/row_error.hpp"
+#include "files/gmsh/mesh_intake.hpp"
 #include "files/input/growing_mesh.hpp"
 
 namespace octetra::gmsh {
 
-/// A buffer of elements between an Input and an Intake, which takes several elements at once:
+/// A buffer of elements between an Input and a MeshIntake, which takes several elements at once:
 /// elements of one kind, with one marker, at equal distances in the file.
-template <class Input, class Intake>
+template <class Input>
 class RowBatch {
 public:
-    RowBatch(Input& in, Intake& intake) : in_(&in), intake_(&intake) {}
+    RowBatch(Input& in, MeshIntake& intake) : in_(&in), intake_(&intake) {}
 
     /// Calls read(), which adds rows, and passes them on. An error in a buffered row is reported
     /// before an error that ended the reading.
@@ -41,11 +41,11 @@ public:
     /// Returns the slot for the node tags of the next row, which is then either added or discarded.
     template <class I, std::size_t N>
     std::array<std::uint64_t, N>& next_row(const EntityKind<I, N>& /*kind*/) {
-        if (N != nodes_ || count_ == Intake::most_at_once) pass_on();
+        if (N != nodes_ || count_ == MeshIntake::most_at_once) pass_on();
         if (N != nodes_) begin(N, 0, 0, 0);
         return rows_of<N>()[count_];
     }
-    /// Adds the row in that slot. `place`, `step`: see Intake::take(). Returns its nodes; the
+    /// Adds the row in that slot. `place`, `step`: see MeshIntake::take(). Returns its nodes; the
     /// reference stays valid until the next row but one of this kind is written, while the kind
     /// stays the same.
     template <class I, std::size_t N>
@@ -70,7 +70,7 @@ public:
         const bool continues =
             N == nodes_ && marker == marker_ && step == step_ && place == next_place_;
         if (!continues) return {};
-        if (count_ == Intake::most_at_once) pass_on();
+        if (count_ == MeshIntake::most_at_once) pass_on();
         return std::span(rows_of<N>()).subspan(count_);
     }
     /// Adds `count` >= 1 rows written to these slots. Returns the nodes of the last one; see add().
@@ -84,7 +84,7 @@ public:
 
 private:
     template <std::size_t N>
-    using Rows = std::array<std::array<std::uint64_t, N>, Intake::most_at_once>;
+    using Rows = std::array<std::array<std::uint64_t, N>, MeshIntake::most_at_once>;
 
     template <std::size_t N>
     Rows<N>& rows_of() {
@@ -115,7 +115,7 @@ private:
     }
 
     Input* in_;
-    Intake* intake_;
+    MeshIntake* intake_;
     std::size_t nodes_ = 0;  ///< nodes per row; 0: no row yet
     Marker marker_ = 0;
     std::uint64_t first_place_ = 0;

@@ -11,13 +11,14 @@
 #include <fmt/format.h>
 
 #include "files/gmsh/element_types.hpp"
+#include "files/gmsh/listed_again.hpp"
+#include "files/gmsh/mesh_intake.hpp"
 #include "files/gmsh/row_batch.hpp"
 #include "files/input/byte_reader.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/input/in_order.hpp"
 
-/// The sections of versions 2 to 2.2, text and binary. Input is TextInput or a type with the same
-/// interface; Intake is MeshIntake or a type with the same interface.
+/// The sections of versions 2 to 2.2, text and binary. Input is TextInput or BinaryInput.
 namespace octetra::gmsh {
 
 inline constexpr std::size_t node_bytes_2 = sizeof(std::int32_t) + 3 * sizeof(double);
@@ -29,8 +30,8 @@ std::uint64_t read_node_count_2(Input& in) {
     return count;
 }
 
-template <class Input, class Intake>
-void read_node_rows_2(Input& in, std::uint64_t count, Intake& intake) {
+template <class Input>
+void read_node_rows_2(Input& in, std::uint64_t count, MeshIntake& intake) {
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t place = in.begin_row("a node");
         intake.take_tag(in.number32("a node's number"), place, Input::row_step(node_bytes_2));
@@ -38,18 +39,21 @@ void read_node_rows_2(Input& in, std::uint64_t count, Intake& intake) {
     }
 }
 
-template <class Input, class Intake>
-void read_nodes_2(Input& in, Intake& intake) {
-    const std::uint64_t count = read_node_count_2(in);
-    intake.expect_nodes(count);
-    read_node_rows_2(in, count, intake);
-}
-
 /// A block of a binary file: elements of one type with the same number of tags.
 struct ElementBlock2 {
     std::uint64_t type = 0;
     std::uint64_t count = 0;
     std::uint64_t tags = 0;
+
+    /// The length of an element; 0 for a type that is not known, whose elements are refused.
+    [[nodiscard]] std::uint64_t row_bytes() const {
+        const auto known = element_type(type);
+        return known ? (1 + tags + known->nodes) * sizeof(std::int32_t) : 0;
+    }
+    template <class Input>
+    [[nodiscard]] std::uint64_t length() const {
+        return count * row_bytes();
+    }
 };
 
 /// `left` is the number of elements in further blocks.
@@ -74,71 +78,12 @@ std::uint64_t read_element_count_2(Input& in) {
     return count;
 }
 
-/// The part of a kept element needed to recognise a repetition of it.
-template <std::size_t N>
-struct ListedElement {
-    std::array<std::uint64_t, N> nodes{};
-    std::int32_t physical = 0;
-    std::int32_t elementary = 0;
-    bool is_there = false;
-};
-
-/// Returns whether both are the same element of the same entity. The order of the vertices is
-/// reversed if a group contains the entity reversed.
-template <std::size_t N>
-bool is_same_element(const ListedElement<N>& a, const ListedElement<N>& b) {
-    if (!a.is_there || !b.is_there || a.elementary != b.elementary) return false;
-    auto nodes = a.nodes;
-    auto other_nodes = b.nodes;
-    std::ranges::sort(nodes);
-    std::ranges::sort(other_nodes);
-    return nodes == other_nodes;
-}
-
-/// Summary of consecutive elements of a kind, from which repetitions before or after them can be
-/// recognised.
-template <std::size_t N>
-struct ListedRun {
-    ListedElement<N> first;            ///< first element kept
-    ListedElement<N> last;             ///< last element kept
-    std::uint64_t kept = 0;            ///< number of elements kept
-    std::uint64_t equal_to_first = 0;  ///< kept elements at the beginning that equal the first
-    std::uint64_t others = 0;          ///< repetitions of it in other groups, which are ignored
-    std::array<std::int32_t, 6> groups_of_others{};  ///< the first of these groups
-
-    /// The caller must set the nodes of `last` before they are read.
-    void keep(const std::array<std::uint64_t, N>& nodes, std::int32_t physical,
-              std::int32_t elementary) {
-        last.physical = physical;
-        last.elementary = elementary;
-        last.is_there = true;
-        if (kept == equal_to_first) {
-            const ListedElement<N> one{nodes, physical, elementary, true};
-            if (kept == 0) first = one;
-            if (is_same_element(one, first)) ++equal_to_first;
-        }
-        ++kept;
-    }
-    void count_repetition(std::int32_t group) {
-        if (kept != equal_to_first) return;
-        if (others < groups_of_others.size()) groups_of_others[others] = group;
-        ++others;
-    }
-};
-
 /// Reads the elements of version 2. The first tag of an element is its physical group, the second
 /// its entity. An element of an entity in several groups is listed once for each of them.
-template <class Input, class Intake>
+template <class Input>
 class Elements2 {
 public:
-    Elements2(Input& in, Intake& intake) : in_(&in), intake_(&intake), batch_(in, intake) {}
-
-    void read() {
-        const std::uint64_t count = read_element_count_2(*in_);
-        intake_->expect_elements(count);
-        if constexpr (Input::has_lines) read_lines(count);
-        if constexpr (!Input::has_lines) fill([&] { read_blocks(count); });
-    }
+    Elements2(Input& in, MeshIntake& intake) : in_(&in), intake_(&intake), batch_(in, intake) {}
 
     /// Reads `count` elements of a text file.
     void read_lines(std::uint64_t count) {
@@ -151,9 +96,40 @@ public:
             }
         });
     }
-    /// Reads `count` elements of a block of a binary file.
+    /// Calls read_blocks(), which calls read_rows() for the rows of each block of a binary file.
+    void fill(auto&& read_blocks) {
+        batch_.fill(read_blocks);
+        cells_.store_last_nodes();
+        facets_.store_last_nodes();
+        edges_.store_last_nodes();
+    }
     void read_rows(const ElementBlock2& block, std::uint64_t count) requires(!Input::has_lines) {
-        fill([&] { add_rows(block, count); });
+        const auto add_rows_of = [&](const auto& kind, auto& of) {
+            intake_->make_room(kind, count);
+            std::uint64_t one_by_one =
+                0;  // elements to read singly after a failed read_uniform_rows()
+            for (std::uint64_t left = count; left > 0;) {
+                if (one_by_one == 0) {
+                    const std::uint64_t read = read_uniform_rows(kind, of, block.tags, left);
+                    left -= read;
+                    if (read > 0) continue;
+                    one_by_one = MeshIntake::most_at_once;
+                }
+                --one_by_one;
+                --left;
+                place_ = in_->begin_row("an element");
+                if (read_at_once(kind, of, block.tags)) continue;
+                (void)in_->integer("an element's number");
+                read_element(block.type, block.tags);
+            }
+        };
+        if (block.type == tetrahedron_type) return add_rows_of(cell_kind, cells_);
+        if (block.type == triangle_type) return add_rows_of(facet_kind, facets_);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            place_ = in_->begin_row("an element");
+            (void)in_->integer("an element's number");
+            read_element(block.type, block.tags);
+        }
     }
 
     [[nodiscard]] const ListedRun<4>& listed(const EntityKind<CellIndex, 4>& /*kind*/) const {
@@ -179,47 +155,6 @@ private:
         }
     };
 
-    void fill(auto&& read_elements) {
-        batch_.fill(read_elements);
-        cells_.store_last_nodes();
-        facets_.store_last_nodes();
-        edges_.store_last_nodes();
-    }
-    void read_blocks(std::uint64_t count) {
-        for (std::uint64_t left = count; left > 0;) {
-            const ElementBlock2 block = read_element_block_2(*in_, left);
-            add_rows(block, block.count);
-            left -= block.count;
-        }
-    }
-    void add_rows(const ElementBlock2& block, std::uint64_t count) requires(!Input::has_lines) {
-        const auto add_rows_of = [&](const auto& kind, auto& of) {
-            intake_->make_room(kind, count);
-            std::uint64_t one_by_one =
-                0;  // elements to read singly after a failed read_uniform_rows()
-            for (std::uint64_t left = count; left > 0;) {
-                if (one_by_one == 0) {
-                    const std::uint64_t read = read_uniform_rows(kind, of, block.tags, left);
-                    left -= read;
-                    if (read > 0) continue;
-                    one_by_one = Intake::most_at_once;
-                }
-                --one_by_one;
-                --left;
-                place_ = in_->begin_row("an element");
-                if (read_at_once(kind, of, block.tags)) continue;
-                (void)in_->integer("an element's number");
-                read_element(block.type, block.tags);
-            }
-        };
-        if (block.type == tetrahedron_type) return add_rows_of(cell_kind, cells_);
-        if (block.type == triangle_type) return add_rows_of(facet_kind, facets_);
-        for (std::uint64_t i = 0; i < count; ++i) {
-            place_ = in_->begin_row("an element");
-            (void)in_->integer("an element's number");
-            read_element(block.type, block.tags);
-        }
-    }
     /// Reads the next rows of a binary file, at most `left`, as many as fit into the batch, if all
     /// have the groups of the last row. Returns their number, or 0 if any row differs.
     template <class I, std::size_t N>
@@ -327,8 +262,8 @@ private:
     }
 
     Input* in_;
-    Intake* intake_;
-    RowBatch<Input, Intake> batch_;
+    MeshIntake* intake_;
+    RowBatch<Input> batch_;
     // The element being read:
     std::uint64_t place_ = 0;
     std::uint64_t tags_ = 0;

@@ -12,14 +12,15 @@
 
 #include <octetra/core/mesh.hpp>
 
+#include "files/gmsh/blocks.hpp"
 #include "files/gmsh/element_types.hpp"
 #include "files/gmsh/entity_groups.hpp"
+#include "files/gmsh/mesh_intake.hpp"
 #include "files/gmsh/row_batch.hpp"
 #include "files/input/growing_mesh.hpp"
 
 /// The sections of version 4.1, text and binary, which have the same numbers in the same order.
-/// Input is TextInput or a type with the same interface; Intake is MeshIntake or a type with the
-/// same interface.
+/// Input is TextInput or BinaryInput.
 namespace octetra::gmsh {
 
 /// Reads the length of a list of tags and the tags. Returns the length and the first tag, or 0 if
@@ -103,12 +104,6 @@ std::uint64_t read_block_length(Input& in, std::uint64_t left, std::string_view 
     in.fail(fmt::format("a block of {} {}, where {} of those announced remain", count, what, left));
 }
 
-/// The beginning of a section of blocks.
-struct SectionTotals {
-    std::uint64_t blocks = 0;
-    std::uint64_t entries = 0;
-};
-
 template <class Input>
 SectionTotals read_totals_4(Input& in, std::string_view what, std::size_t numbers,
                             std::size_t bytes) {
@@ -136,6 +131,10 @@ struct NodeBlock {
 
     static constexpr std::size_t tag_bytes = sizeof(std::uint64_t);
     [[nodiscard]] std::size_t point_bytes() const { return (3 + parameters) * sizeof(double); }
+    template <class Input>
+    [[nodiscard]] std::uint64_t length() const {
+        return count * (Input::row_step(tag_bytes) + Input::row_step(point_bytes()));
+    }
 };
 
 /// `left` is the number of nodes in further blocks.
@@ -150,36 +149,21 @@ NodeBlock read_node_block_4(Input& in, std::uint64_t left) {
     return block;
 }
 
-template <class Input, class Intake>
-void read_node_tags_4(Input& in, std::uint64_t count, Intake& intake) {
+template <class Input>
+void read_node_tags_4(Input& in, std::uint64_t count, MeshIntake& intake) {
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t place = in.begin_row("a node's tag");
         intake.take_tag(in.number64("a node's tag"), place, Input::row_step(NodeBlock::tag_bytes));
     }
 }
 
-template <class Input, class Intake>
-void read_node_points_4(Input& in, const NodeBlock& block, std::uint64_t count, Intake& intake) {
+template <class Input>
+void read_node_points_4(Input& in, const NodeBlock& block, std::uint64_t count,
+                        MeshIntake& intake) {
     for (std::uint64_t i = 0; i < count; ++i) {
         (void)in.begin_row("x");
         intake.take_point(in.point());
         for (std::size_t k = 0; k < block.parameters; ++k) in.skip_real("a parameter of a node");
-    }
-}
-
-template <class Input, class Intake>
-void read_nodes_4(Input& in, Intake& intake) {
-    const SectionTotals totals = read_node_totals_4(in);
-    intake.expect_nodes(totals.entries);
-    std::uint64_t left = totals.entries;
-    for (std::uint64_t k = 0; k < totals.blocks; ++k) {
-        const NodeBlock block = read_node_block_4(in, left);
-        read_node_tags_4(in, block.count, intake);
-        read_node_points_4(in, block, block.count, intake);
-        left -= block.count;
-    }
-    if (left > 0) {
-        in.fail(fmt::format("{} of the {} nodes announced are missing", left, totals.entries));
     }
 }
 
@@ -192,6 +176,10 @@ struct ElementBlock {
 
     [[nodiscard]] std::size_t row_bytes() const {
         return (1 + known.nodes) * sizeof(std::uint64_t);
+    }
+    template <class Input>
+    [[nodiscard]] std::uint64_t length() const {
+        return count * Input::row_step(row_bytes());
     }
 };
 
@@ -213,9 +201,9 @@ ElementBlock read_element_block_4(Input& in, std::uint64_t left, const EntityGro
     return block;
 }
 
-template <class Input, class I, std::size_t N, class Intake>
+template <class Input, class I, std::size_t N>
 void keep_rows_4(Input& in, const EntityKind<I, N>& kind, Marker marker, std::uint64_t count,
-                 Intake& intake) {
+                 MeshIntake& intake) {
     intake.make_room(kind, count);
     RowBatch batch(in, intake);
     batch.fill([&] {
@@ -233,9 +221,9 @@ void keep_rows_4(Input& in, const EntityKind<I, N>& kind, Marker marker, std::ui
 }
 
 /// Reads `count` rows of a block.
-template <class Input, class Intake>
+template <class Input>
 void read_element_rows_4(Input& in, const ElementBlock& block, std::uint64_t count,
-                         Intake& intake) {
+                         MeshIntake& intake) {
     if (block.entity.is_missing) intake.note_missing_entity(count);
     if (!block.entity.is_interface) {
         const Marker marker = block.entity.marker;
@@ -252,21 +240,6 @@ void read_element_rows_4(Input& in, const ElementBlock& block, std::uint64_t cou
     }
     block.entity.is_interface ? intake.skip_interface(count)
                               : intake.skip(block.known.shape, count);
-}
-
-template <class Input, class Intake>
-void read_elements_4(Input& in, const EntityGroups& groups, Intake& intake) {
-    const SectionTotals totals = read_element_totals_4(in);
-    intake.expect_elements(totals.entries);
-    std::uint64_t left = totals.entries;
-    for (std::uint64_t k = 0; k < totals.blocks; ++k) {
-        const ElementBlock block = read_element_block_4(in, left, groups);
-        if (block.count > 0) read_element_rows_4(in, block, block.count, intake);
-        left -= block.count;
-    }
-    if (left > 0) {
-        in.fail(fmt::format("{} of the {} elements announced are missing", left, totals.entries));
-    }
 }
 
 }  // namespace octetra::gmsh

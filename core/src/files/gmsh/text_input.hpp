@@ -13,17 +13,49 @@
 #include "files/input/fields.hpp"
 #include "files/input/line_reader.hpp"
 #include "files/input/tokens.hpp"
+#include "files/shares/line_index.hpp"
 
 namespace octetra::gmsh {
 
-/// The numbers of a text file, in free format; positions are line numbers. BinaryInput has the same
-/// interface: the section readers are templates for both.
+/// The numbers of a text file; positions are line numbers. BinaryInput has the same interface: the
+/// section readers are templates for both.
+///
+/// If one process reads the file, from its beginning to its end, it may have free format. If
+/// several do, each seeks its rows, and a row must have a line of its own; numbers outside of rows
+/// may be anywhere.
 class TextInput {
 public:
     static constexpr std::uint64_t row_step(std::uint64_t /*bytes*/) { return 1; }
 
-    /// The reader must be on the line before the first number.
-    explicit TextInput(LineReader& reader) : reader_(&reader), tokens_(reader) {}
+    /// The reader must be on the line before the first number. `index`: if several processes read
+    /// the file; otherwise null, and calls of seek() have no effect.
+    explicit TextInput(LineReader& reader, const LineIndex* index = nullptr)
+        : reader_(&reader), tokens_(reader), index_(index) {}
+
+    /// Returns the position of the next row; the current line must have been read to its end.
+    [[nodiscard]] std::uint64_t here() const {
+        if (index_ == nullptr) return 0;
+        if (!tokens_.at_line_end()) refuse_form();
+        return reader_->line_number() + 1;
+    }
+    /// Moves to a line. Lines within a short distance are skipped by reading.
+    void seek(std::uint64_t line) {
+        if (index_ == nullptr) return;
+        constexpr std::uint64_t near = std::uint64_t{1} << 17U;
+        if (line <= reader_->line_number() ||
+            index_->position_before(line) > reader_->next_position() + near) {
+            reader_->seek(index_->position_of(line), index_->file_size(), line - 1);
+        }
+        while (reader_->line_number() + 1 < line && reader_->next()) {
+        }
+        if (reader_->line_number() + 1 != line) refuse_form();
+        tokens_.skip_line();
+        next_row_ = line;
+    }
+    /// To be called after the last of consecutive rows: checks that each row had one line.
+    void end_rows() const {
+        if (index_ != nullptr && here() != next_row_) refuse_form();
+    }
 
     /// Returns the name of the next section, without '$', or an empty string at the end of the
     /// file.
@@ -55,7 +87,9 @@ public:
     /// Returns the position of the row that begins with the next number.
     [[nodiscard]] std::uint64_t begin_row(std::string_view what) {
         tokens_.require(what);
-        return reader_->line_number();
+        const std::uint64_t line = reader_->line_number();
+        if (index_ != nullptr && line != next_row_++) refuse_form();
+        return line;
     }
     [[nodiscard]] std::uint64_t number64(std::string_view what) {
         return tokens_.unsigned_integer(what);
@@ -113,16 +147,13 @@ public:
     /// Whether messages can refer to positions as lines.
     static constexpr bool has_lines = true;
 
-protected:
-    [[nodiscard]] LineReader& reader() const { return *reader_; }
-    /// Returns whether the line of the last token has no further tokens.
-    [[nodiscard]] bool at_line_end() const { return tokens_.at_line_end(); }
-    /// Continues after the current line of the reader.
-    void skip_line() { tokens_.skip_line(); }
-
 private:
+    [[noreturn]] void refuse_form() const { reader_->fail("not a row on each line"); }
+
     LineReader* reader_;
     Tokens tokens_;
+    const LineIndex* index_;
+    std::uint64_t next_row_ = 0;  // line of the next row, if there is an index
 };
 
 }  // namespace octetra::gmsh

@@ -68,6 +68,7 @@ void GrowingMesh::finish_sink() {
 
 MeshShare GrowingMesh::finish() {
     MeshShare share;
+    facts_.group_names = SharedGroupNames(mesh.group_names);
     share.lists = std::move(mesh);
     finish_share(facts_, zeros_are_none_, *group_, share);
     return share;

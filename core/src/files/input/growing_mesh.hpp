@@ -94,6 +94,12 @@ public:
     void all_complete(const EntityKind<I, N>& kind) {
         flush(kind);
     }
+    /// Collective. To be called after the last entity of a kind whose count was not announced;
+    /// without effect if a sink takes the mesh.
+    template <class I, std::size_t N>
+    void count_complete(const EntityKind<I, N>& kind) {
+        if (!is_streaming()) facts_.*kind.count = group_->sum((mesh.*kind.list).size());
+    }
 
     /// Sets the entities that are passed to the sink from now on.
     void stream_only(Streamed streamed) { streamed_ = streamed; }

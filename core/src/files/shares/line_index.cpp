@@ -1,12 +1,12 @@
 #include "files/shares/line_index.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "files/input/input_file.hpp"
+#include "files/shares/gather.hpp"
 #include "files/shares/shares.hpp"
 
 namespace octetra {
@@ -37,39 +37,18 @@ std::vector<std::uint64_t> count_ends(const InputFile& file, std::uint64_t block
 
 }  // namespace
 
-LineIndex::LineIndex(std::filesystem::path path, std::uint64_t file_size)
+LineIndex::LineIndex(const ProcessGroup& group, std::filesystem::path path, std::uint64_t file_size)
     : path_(std::move(path)),
       file_size_(file_size),
-      block_size_(std::max(min_block_size, file_size / max_blocks + 1)) {}
-
-std::optional<LineIndex> LineIndex::make(CollectiveStatus& status,
-                                         const std::filesystem::path& path,
-                                         std::uint64_t file_size) {
-    const ProcessGroup& group = status.group();
-    std::optional<LineIndex> index;
-    ProcessGroup::Bytes own;
-    status.attempt([&] {
-        index = LineIndex(path, file_size);
-        const std::uint64_t stretches = (file_size + index->block_size_ - 1) / index->block_size_;
-        const std::vector<std::uint64_t> ends =
-            count_ends(InputFile(path), index->block_size_, share_of_rows(stretches, group));
-        const auto bytes = std::as_bytes(std::span(ends));
-        own.assign(bytes.begin(), bytes.end());
-    });
-    if (!status.all_succeeded()) return std::nullopt;
-    status.attempt([&] {
-        const std::vector<ProcessGroup::Bytes> of_all = group.of_all(std::move(own));
-        std::uint64_t sum = 0;
-        index->ends_before_.push_back(sum);
-        for (const ProcessGroup::Bytes& bytes : of_all) {
-            std::vector<std::uint64_t> ends(bytes.size() / sizeof(std::uint64_t));
-            if (ends.empty()) continue;
-            std::memcpy(ends.data(), bytes.data(), bytes.size());
-            for (const std::uint64_t count : ends) index->ends_before_.push_back(sum += count);
-        }
-    });
-    if (!status.all_succeeded()) return std::nullopt;
-    return index;
+      block_size_(std::max(min_block_size, file_size / max_blocks + 1)) {
+    const std::uint64_t blocks = (file_size + block_size_ - 1) / block_size_;
+    const std::vector<std::uint64_t> ends =
+        count_ends(InputFile(path_), block_size_, share_of_rows(blocks, group));
+    std::uint64_t sum = 0;
+    ends_before_.push_back(sum);
+    for (const auto& of_process : gather_lists(group, std::span<const std::uint64_t>(ends))) {
+        for (const std::uint64_t count : of_process) ends_before_.push_back(sum += count);
+    }
 }
 
 std::uint64_t LineIndex::block_before(std::uint64_t line) const {

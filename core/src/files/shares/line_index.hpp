@@ -2,10 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <vector>
 
-#include "files/shares/status.hpp"
+#include <octetra/core/process_group.hpp>
 
 namespace octetra {
 
@@ -14,11 +13,8 @@ namespace octetra {
 /// are counted from 1; empty ones count.
 class LineIndex {
 public:
-    /// Collective. Each process counts line ends in its share. Returns nothing on all processes if
-    /// one has failed.
-    [[nodiscard]] static std::optional<LineIndex> make(CollectiveStatus& status,
-                                                       const std::filesystem::path& path,
-                                                       std::uint64_t file_size);
+    /// Collective, within a transaction. Each process counts line ends in its share.
+    LineIndex(const ProcessGroup& group, std::filesystem::path path, std::uint64_t file_size);
 
     /// Throws std::out_of_range if the file has no such line.
     [[nodiscard]] std::uint64_t position_of(std::uint64_t line) const;
@@ -29,8 +25,6 @@ public:
     [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
 
 private:
-    LineIndex(std::filesystem::path path, std::uint64_t file_size);
-
     /// Returns the block that contains the end of the preceding line.
     [[nodiscard]] std::uint64_t block_before(std::uint64_t line) const;
 

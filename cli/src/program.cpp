@@ -95,6 +95,7 @@ void declare_all(CLI::App& program, const distributed::Communicator& world) {
     add_convert(program, world);
     add_partition(program, world);
     add_verify(program, world);
+    add_certify(program, world);
     add_compare(program, world);
 }
 

@@ -49,7 +49,7 @@ TEST_P(Help, FitsATerminal) {
 
 INSTANTIATE_TEST_SUITE_P(Subcommands, Help,
                          testing::Values("", "refine", "adapt", "coarsen", "info", "convert",
-                                         "partition", "verify", "compare", "generate",
+                                         "partition", "verify", "certify", "compare", "generate",
                                          "generate kuhn", "generate bcc", "generate regular",
                                          "generate random", "generate slivers", "generate sphere",
                                          "generate fichera", "generate torus", "generate gear",

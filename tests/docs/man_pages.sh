@@ -10,7 +10,7 @@ for tool in help2man groff; do
 done
 rm -rf "$2"
 "$(dirname "$0")/../../tools/man_pages.py" --octetra "$1" -o "$2"
-for name in octetra octetra-refine octetra-verify octetra-compare octetra-info octetra-generate \
+for name in octetra octetra-refine octetra-verify octetra-certify octetra-compare octetra-info octetra-generate \
     octetra-convert octetra-partition octetra-adapt \
     octetra-coarsen; do
     warnings=$(groff -ww -man -Tutf8 "$2/$name.1" 2>&1 >/dev/null)

@@ -14,6 +14,7 @@ class Communicator;
 namespace octetra::cli {
 
 void add_adapt(CLI::App& program, const distributed::Communicator& world);
+void add_certify(CLI::App& program, const distributed::Communicator& world);
 void add_coarsen(CLI::App& program, const distributed::Communicator& world);
 void add_compare(CLI::App& program, const distributed::Communicator& world);
 void add_convert(CLI::App& program, const distributed::Communicator& world);

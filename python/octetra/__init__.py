@@ -22,6 +22,7 @@ from ._octetra import (
     Mesh as Mesh,
     MeshSeries as MeshSeries,
     Migration as Migration,
+    ShapeCertificate as ShapeCertificate,
     Sharing as Sharing,
     EntityTransfer as EntityTransfer,
     SystemFailure as SystemFailure,

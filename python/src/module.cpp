@@ -119,6 +119,7 @@ PYBIND11_MODULE(_octetra, module) {
     bind_vertex_sets(mesh);
     bind_series(module, mesh);
     bind_verify(module, mesh);
+    bind_certificate(module, mesh);
     refuse_objects_without_value(module);
 }
 

@@ -203,6 +203,20 @@ TEST(Certificate, TakesLargerIntegersWhereCoordinatesNeedThem) {
     }
 }
 
+/// The lengths of this cell grow beyond those that integers of 128 bits are used for.
+TEST(Certificate, IsRepeatedWithLargerIntegersIfLengthsGrow) {
+    const Corners small{Point{0, 0, 0}, {13, -20, -1}, {17, -19, 1}, {-10, -20, 1}};
+    Corners large = small;
+    for (Point& p : large) p = {p.x * 0x1p55, p.y * 0x1p55, p.z * 0x1p55};
+    large[0].z = 1;
+    const CellCertificate expected = certificate_of(small);
+    const CellCertificate found = certificate_of(large);
+    EXPECT_EQ(found.shapes, expected.shapes);
+    EXPECT_EQ(found.generations, expected.generations);
+    EXPECT_NEAR(found.bounds.min_dihedral, expected.bounds.min_dihedral, 1e-8);
+    EXPECT_NEAR(found.bounds.max_dihedral, expected.bounds.max_dihedral, 1e-8);
+}
+
 /// Two edges of the base that are equal, or differ in their last bits: either may be the longest.
 TEST(Certificate, CoversBothDecisionsWhereRoundingMayDecide) {
     const auto cell = [](double shift) {
@@ -237,6 +251,27 @@ TEST(Certificate, OfThinCellsIsExact) {
                  InputError);
 }
 
+/// The angles of all cells up to this generation, and of the pieces of these, children included.
+test::Angles angles_to_generation(const test::Tetrahedron& root, int last) {
+    test::Angles found;
+    std::vector<test::Tetrahedron> cells{root};
+    for (int generation = 0; generation <= last; ++generation) {
+        std::vector<test::Tetrahedron> next;
+        for (const test::Tetrahedron& cell : cells) {
+            found.add(test::angles(cell));
+            for (unsigned edges = 1; edges < 64; ++edges) {
+                if (!test::is_closed(cell, edges)) continue;
+                for (const auto& piece : test::children(cell, edges)) {
+                    found.add(test::angles(piece));
+                    if (edges == 63) next.push_back(piece);
+                }
+            }
+        }
+        cells = std::move(next);
+    }
+    return found;
+}
+
 TEST(Certificate, HoldsToAGenerationIfTheLimitIsReached) {
     const std::size_t limit = 20;  // 1, 6, 20, 13 new shapes
     const CellCertificate found = certify_cell(tie_free_corners, limit);
@@ -244,23 +279,17 @@ TEST(Certificate, HoldsToAGenerationIfTheLimitIsReached) {
     EXPECT_EQ(found.generations, 1U);
     const CellCertificate all = certificate_of(tie_free_corners);
     EXPECT_GE(found.bounds.min_dihedral, all.bounds.min_dihedral);
-    test::Angles exact;  // of generations 0 and 1, and the children of the latter
-    std::vector<test::Tetrahedron> cells{{test::Corner{0, 0, 0}, {7, 0, 0}, {2, 5, 0}, {1, 2, 6}}};
-    for (int generation = 0; generation < 2; ++generation) {
-        std::vector<test::Tetrahedron> next;
-        for (const test::Tetrahedron& cell : cells) {
-            exact.add(test::angles(cell));
-            for (unsigned edges = 1; edges < 64; ++edges) {
-                if (!test::is_closed(cell, edges)) continue;
-                for (const auto& piece : test::children(cell, edges)) {
-                    exact.add(test::angles(piece));
-                    if (edges == 63) next.push_back(piece);
-                }
-            }
-        }
-        cells = std::move(next);
-    }
-    expect_bounds(found.bounds, exact);
+    expect_bounds(found.bounds, angles_to_generation(
+                                    {test::Corner{0, 0, 0}, {7, 0, 0}, {2, 5, 0}, {1, 2, 6}}, 1));
+}
+
+/// Dihedral angles of some 60 degrees at long edges, whose cosines floating point would cancel.
+TEST(Certificate, OfNeedlesIsExact) {
+    const std::int64_t length = 10'000;
+    const test::Tetrahedron needle{test::Corner{0, 0, 0}, {3, 0, 0}, {1, 2, 0}, {0, 0, length}};
+    Corners corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = test::point_of(needle[k]);
+    expect_bounds(certify_cell(corners, 1).bounds, angles_to_generation(needle, 0));
 }
 
 TEST(CertificateOfAMesh, IsThatOfItsCells) {

@@ -60,9 +60,8 @@ void run(const CertifyCommandOptions& given, const distributed::Communicator& wo
 
 void add_certify(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<CertifyCommandOptions>();
-    CLI::App* command = program.add_subcommand(
-        "certify",
-        "Bound the angles of all cells that any number of regular refinements can make of a mesh");
+    CLI::App* command =
+        program.add_subcommand("certify", "Bound the angles of all regular refinements of a mesh");
     command
         ->add_option("MESH", options->path,
                      "the mesh: .ele, .node, .mesh, .meshb or .msh; of a .octetra file, its input")

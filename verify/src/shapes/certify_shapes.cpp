@@ -251,8 +251,8 @@ ShapeCertificate certify_shapes(const MeshSlice& mesh, const ProcessGroup& group
             for (const VertexIndex v : cell) share.numbers.push_back(v.value());
         }
         std::ranges::sort(share.numbers);
-        const auto rest = std::ranges::unique(share.numbers);
-        share.numbers.erase(rest.begin(), rest.end());
+        share.numbers.erase(std::unique(share.numbers.begin(), share.numbers.end()),
+                            share.numbers.end());
         const auto points = fetch_points(share.numbers, mesh, group);
         share.points = &points;
         return certify(share, group, options);

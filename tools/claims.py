@@ -99,9 +99,9 @@ def tests_of(build):
         names.add(re.sub(r"\.\d+_ranks$", "", name))
         if any(argument.startswith("--gtest_filter=") for argument in command) and len(command) == 3:
             programs.add((name.split(".")[0], command[0]))  # a suite of a GoogleTest program
-        if command and command[0].endswith("/mpirun.sh"):  # MPIRUN RANKS [-x VARIABLE] PROGRAM ARGUMENTS...
+        if command and command[0].endswith("/mpirun.sh"):  # MPIRUN RANKS [env VARIABLE] PROGRAM ARGUMENTS...
             program = command[2:]
-            while program[0] == "-x":
+            if program[0] == "env":
                 program = program[2:]
             if pathlib.Path(program[0]).exists():
                 programs.add((name.split(".")[0], command[0], "1", *program))

@@ -13,35 +13,38 @@ import xml.etree.ElementTree
 TOOL = os.path.join(os.path.dirname(__file__), "..", "..", "tools", "equivalence")
 OCTETRA = os.environ.get("OCTETRA_PROGRAM", "octetra")
 
-# Programs that act like octetra except for one fault. $OMPI_COMM_WORLD_RANK is set by mpirun.
-CHANGES_A_BYTE_ON_3_RANKS_BY_THE_GATEWAY = """#!/bin/bash
+# Programs that act like octetra except for one fault. Open MPI and MPICH set different variables.
+BEGIN = """#!/bin/bash
+rank=${OMPI_COMM_WORLD_RANK-$PMI_RANK} size=${OMPI_COMM_WORLD_SIZE-$PMI_SIZE}
+"""
+CHANGES_A_BYTE_ON_3_RANKS_BY_THE_GATEWAY = """\
 "{octetra}" "$@" || exit
-if [[ $OMPI_COMM_WORLD_RANK == 0 && $OMPI_COMM_WORLD_SIZE == 3 && "$*" == *gateway* ]]; then
+if [[ $rank == 0 && $size == 3 && "$*" == *gateway* ]]; then
     printf 9 | dd of=refined.node bs=1 seek=100 conv=notrunc status=none
 fi
 """
-FAILS_ON_2_RANKS = """#!/bin/bash
-if [[ $OMPI_COMM_WORLD_SIZE == 2 ]]; then
+FAILS_ON_2_RANKS = """\
+if [[ $size == 2 ]]; then
     echo "octetra: no more memory" >&2
     exit 3
 fi
 exec "{octetra}" "$@"
 """
-FINDS_NOTHING_VALID = """#!/bin/bash
+FINDS_NOTHING_VALID = """\
 if [[ $1 == verify ]]; then exec "{octetra}" "$@" --min-dihedral 179; fi
 exec "{octetra}" "$@"
 """
-SAYS_OTHER_WORDS_ON_RANKS = """#!/bin/bash
-if [[ $OMPI_COMM_WORLD_SIZE ]]; then
-    if [[ $OMPI_COMM_WORLD_RANK == 0 ]]; then echo "octetra: other words" >&2; fi
+SAYS_OTHER_WORDS_ON_RANKS = """\
+if [[ $size ]]; then
+    if [[ $rank == 0 ]]; then echo "octetra: other words" >&2; fi
     exit 2
 fi
 exec "{octetra}" "$@"
 """
 
-GOES_ON_WRONGLY_FROM_CHECKPOINTS = """#!/bin/bash
+GOES_ON_WRONGLY_FROM_CHECKPOINTS = """\
 "{octetra}" "$@" || exit
-if [[ $1 == adapt && $2 == *.octetra && $OMPI_COMM_WORLD_RANK == 0 ]]; then echo >> end.mesh; fi
+if [[ $1 == adapt && $2 == *.octetra && $rank == 0 ]]; then echo >> end.mesh; fi
 """
 
 
@@ -54,7 +57,7 @@ class Report(unittest.TestCase):
     def program(self, script):
         path = os.path.join(self.folder, "octetra")
         with open(path, "w", encoding="utf-8") as file:
-            file.write(script.format(octetra=OCTETRA))
+            file.write(BEGIN + script.format(octetra=OCTETRA))
         os.chmod(path, stat.S_IRWXU)
         return path
 

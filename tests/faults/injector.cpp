@@ -1,8 +1,10 @@
 /// To be preloaded (LD_PRELOAD) into a program under mpirun: on rank OCTETRA_FAULT_RANK, call
 /// number OCTETRA_FAULT_AT, from 1, of a kind fails. OCTETRA_FAULT_KIND is `file`, for calls that
 /// open, write, resize, sync or rename files below OCTETRA_FAULT_FOLDER, which then report a full
-/// disk; or `memory`, for allocations by operator new after the start of MPI. With 0 none fails,
-/// and the number of calls is printed on stderr.
+/// disk; or `memory`, for allocations by operator new. Calls count after the start of MPI. With 0
+/// none fails, and the number of calls is printed on stderr.
+
+#include "support/preloaded.hpp"
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -23,10 +25,8 @@
 
 namespace {
 
-int number_in_environment(const char* name) {
-    const char* const text = std::getenv(name);
-    return text == nullptr ? 0 : std::atoi(text);
-}
+using octetra::preloaded::is_rank_in_environment;
+using octetra::preloaded::number_in_environment;
 
 bool is_in_environment(const char* name, std::string_view value) {
     const char* const text = std::getenv(name);
@@ -45,11 +45,11 @@ public:
         if (is_this_one_ && fail_at_ == 0) std::fprintf(stderr, "calls: %d\n", calls_.load());
     }
 
+    void mpi_is_started() { is_this_one_ = is_rank_in_environment("OCTETRA_FAULT_RANK"); }
     [[nodiscard]] bool fails() { return is_this_one_ && ++calls_ == fail_at_; }
 
 private:
-    bool is_this_one_ = number_in_environment("OMPI_COMM_WORLD_RANK") ==
-                        number_in_environment("OCTETRA_FAULT_RANK");
+    std::atomic<bool> is_this_one_{false};
     int fail_at_ = number_in_environment("OCTETRA_FAULT_AT");
     std::atomic<int> calls_{0};
 };
@@ -57,7 +57,6 @@ private:
 Injector injector;
 const bool fails_files = is_in_environment("OCTETRA_FAULT_KIND", "file");
 const bool fails_memory = is_in_environment("OCTETRA_FAULT_KIND", "memory");
-std::atomic<bool> is_started{false};
 
 bool is_below_folder(const char* path) {
     const char* const folder = std::getenv("OCTETRA_FAULT_FOLDER");
@@ -94,7 +93,7 @@ int open_next(const char* name, const char* path, int flags, mode_t mode) {
 }
 
 void* allocate(std::size_t size, std::size_t alignment) {
-    if (fails_memory && is_started && injector.fails()) return nullptr;
+    if (fails_memory && injector.fails()) return nullptr;
     if (alignment <= alignof(std::max_align_t)) return std::malloc(size == 0 ? 1 : size);
     return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 }
@@ -162,13 +161,13 @@ int rename(const char* from, const char* to) noexcept {
 
 int MPI_Init(int* argc, char*** argv) {
     const int result = PMPI_Init(argc, argv);
-    is_started = true;
+    injector.mpi_is_started();
     return result;
 }
 
 int MPI_Init_thread(int* argc, char*** argv, int required, int* provided) {
     const int result = PMPI_Init_thread(argc, argv, required, provided);
-    is_started = true;
+    injector.mpi_is_started();
     return result;
 }
 

@@ -48,6 +48,7 @@ COMMANDS = {
     "load a checkpoint and refine": ("refine in.octetra --random 0.2 -o out.octetra", ["out.octetra"]),
     "verify a refinement": ("verify in.mesh fine.mesh", []),
 }
+STATUSES = {"killed": (137, 9), "file": (3,), "memory": (3,)}  # of mpirun; killed: Open MPI's, MPICH's
 KINDS = {"killed": "killed at an MPI call", "file": "a file call fails", "memory": "an allocation fails"}
 
 
@@ -94,8 +95,8 @@ class Bench:
         else:
             settings |= {"OCTETRA_FAULT_KIND": kind, "OCTETRA_FAULT_RANK": rank, "OCTETRA_FAULT_AT": at,
                          "OCTETRA_FAULT_FOLDER": self.folder}
-        options = [word for name, value in settings.items() for word in ("-x", f"{name}={value}")]
-        command = [ROOT / "tests/support/mpirun.sh", str(RANKS), *options, self.program, *arguments.split()]
+        variables = [f"{name}={value}" for name, value in settings.items()]
+        command = [ROOT / "tests/support/mpirun.sh", str(RANKS), "env", *variables, self.program, *arguments.split()]
         start = time.monotonic()
         process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                    text=True, errors="replace", start_new_session=True,
@@ -128,7 +129,7 @@ def fault_of(bench, outputs, complete, kind, status, stderr_text, seconds):
         return "an output is neither the old file nor complete"
     if status == 0:
         return "" if found == complete else "exit status 0 without its outputs"
-    if status != {"killed": 137}.get(kind, 3):
+    if status not in STATUSES[kind]:
         return f"exit status {status}"
     if kind == "killed":
         return ""

@@ -3,18 +3,17 @@
 /// so that the number does not depend on timing. With 0 the rank is not killed, and reports its
 /// number of calls on stderr. Wraps MPI through the profiling interface, PMPI.
 
+#include "support/preloaded.hpp"
+
 #include <mpi.h>
 
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 
 namespace {
 
-int number_in_environment(const char* name) {
-    const char* const text = std::getenv(name);
-    return text == nullptr ? 0 : std::atoi(text);
-}
+using octetra::preloaded::is_rank_in_environment;
+using octetra::preloaded::number_in_environment;
 
 class Victim {
 public:
@@ -27,13 +26,13 @@ public:
         if (is_this_one_ && kill_at_ == 0) std::fprintf(stderr, "calls of MPI: %d\n", calls_);
     }
     void call() {
+        if (calls_ == 0) is_this_one_ = is_rank_in_environment("OCTETRA_KILL_RANK");
         ++calls_;
         if (is_this_one_ && calls_ == kill_at_) std::raise(SIGKILL);
     }
 
 private:
-    bool is_this_one_ =
-        number_in_environment("OMPI_COMM_WORLD_RANK") == number_in_environment("OCTETRA_KILL_RANK");
+    bool is_this_one_ = false;
     int kill_at_ = number_in_environment("OCTETRA_KILL_AT");
     int calls_ = 0;
 };

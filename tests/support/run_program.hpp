@@ -45,6 +45,12 @@ inline Outcome run_program(const std::vector<std::string>& command,
             content_of(caught / "out"), content_of(caught / "err")};
 }
 
+/// Whether this status of mpirun reports that a signal ended a rank. Open MPI adds 128 to the
+/// number of the signal, MPICH does not.
+inline bool reports_signal(int status, int signal) {
+    return status == 128 + signal || status == signal;
+}
+
 /// Splits at blanks, which suffices for the command lines of tests.
 inline std::vector<std::string> words(const std::string& line) {
     std::istringstream in(line);

@@ -17,8 +17,8 @@ fuzz_for() {
         delays='' delay_options=()
         if ((ranks > 1 && round / 8 % 2 == 1)); then
             delays=', messages in disorder'
-            delay_options=(-x "LD_PRELOAD=$PWD/build/release/tests/properties/libmpi_shuffler.so"
-                -x "OCTETRA_SHUFFLE_SEED=$seed")
+            delay_options=(env "LD_PRELOAD=$PWD/build/release/tests/properties/libmpi_shuffler.so"
+                "OCTETRA_SHUFFLE_SEED=$seed")
         fi
         say "${bold}round $((round + 1)): seed $seed, $ranks ranks$delays$plain"
         RC_PARAMS="seed=$seed max_success=$cases" tests/support/mpirun.sh "$ranks" "${delay_options[@]}" \

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -46,9 +47,10 @@ inline Outcome run_program(const std::vector<std::string>& command,
 }
 
 /// Whether this status of mpirun reports that a signal ended a rank. Open MPI adds 128 to the
-/// number of the signal, MPICH does not.
+/// number of the signal; MPICH returns the number, or that of SIGKILL, by which it ends the other
+/// ranks.
 inline bool reports_signal(int status, int signal) {
-    return status == 128 + signal || status == signal;
+    return status == 128 + signal || status == signal || status == SIGKILL;
 }
 
 /// Splits at blanks, which suffices for the command lines of tests.

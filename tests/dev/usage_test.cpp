@@ -35,8 +35,9 @@ INSTANTIATE_TEST_SUITE_P(
                     "campaign shrink a.json b.json", "campaign shrink a.json --minutes 0",
                     "campaign shrink a.json --ranks 0", "campaign shrink a.json --ranks",
                     "campaign shrink --slow 1 a.json", "campaign files --minutes 0",
-                    "campaign packages --minutes 0", "campaign packages now", "format --slow",
-                    "docs now", "clean all"));
+                    "campaign packages --minutes 0", "campaign packages now",
+                    "campaign platforms --only debian-3", "campaign platforms --folder",
+                    "format --slow", "docs now", "clean all"));
 
 /// Help neither installs nor builds the prerequisites of a verb.
 class Help : public testing::TestWithParam<std::pair<std::string, std::string>> {};

@@ -8,7 +8,7 @@ if (($# > 0)) && [[ $1 != -* ]]; then
     shift
 fi
 case $kind in
-    nightly | fuzz | faults | files | worlds | mutants | packages | valgrind | foreign | shrink)
+    nightly | fuzz | faults | files | worlds | mutants | packages | valgrind | foreign | platforms | shrink)
         exec bash "tools/dev/campaign/$kind.sh" "$@"
         ;;
     all) ;;

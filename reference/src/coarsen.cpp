@@ -55,6 +55,25 @@ void keep_closed(const Step& step, VertexSet& kept) {
     }
 }
 
+/// Implements rule (c) of coarsened() for the cells that `step` cut; `next` is the following step.
+void keep_complete(const Step& step, const Step& next, VertexSet& kept) {
+    CellIndex child{0};
+    for (CellIndex c{0}; c < step.mesh->cells.end_index(); ++c) {
+        const auto pieces = pieces_of(step.mesh->cells[c], *step.mesh, step.table, step.midpoints);
+        bool has_kept = false;
+        for (std::size_t k = 0; k < pieces.size(); ++k, ++child) {
+            for (const EdgeIndex e : next.table.cell_to_edges[child]) {
+                const VertexIndex midpoint = next.midpoints[e];
+                has_kept = has_kept || (!midpoint.is_none() && kept[midpoint] != 0);
+            }
+        }
+        if (!has_kept || pieces.size() == 1) continue;
+        for (const EdgeIndex e : step.table.cell_to_edges[c]) {
+            if (!step.midpoints[e].is_none()) kept[step.midpoints[e]] = true;
+        }
+    }
+}
+
 /// Returns the history without the midpoints that are not kept. The remaining ones are renumbered
 /// consecutively, as replay will number them; their order does not change, so edges remain
 /// ascending.
@@ -81,7 +100,7 @@ History without(const History& history, const VertexSet& kept) {
 
 }  // namespace
 
-History coarsened(const History& history, const CellMarks& may_coarsen) {
+History coarsened(const History& history, const CellMarks& may_coarsen, Closure closure) {
     const StandardArithmetic standard;
     const std::vector<Refinement> meshes = replay(history);
     std::vector<Step> steps;
@@ -89,7 +108,12 @@ History coarsened(const History& history, const CellMarks& may_coarsen) {
         steps.push_back({&meshes[t].mesh, &history.steps[t]});
     }
     VertexSet kept = vertices_to_keep(history.input, meshes.back().mesh, may_coarsen, steps);
-    for (const Step& step : steps) keep_closed(step, kept);
+    for (std::size_t t = steps.size(); t-- > 0;) {
+        if (closure == Closure::regular && t + 1 < steps.size()) {
+            keep_complete(steps[t], steps[t + 1], kept);
+        }
+        keep_closed(steps[t], kept);
+    }
     return without(history, kept);
 }
 

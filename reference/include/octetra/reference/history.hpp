@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <octetra/core/closure.hpp>
 #include <octetra/reference/refine.hpp>
 
 /// A mesh as its input and the bisections applied to it. Coarsening removes bisections; replaying
@@ -33,6 +34,22 @@ using CellMarks = IndexVector<CellIndex, char>;
 /// bisects no edge is not recorded.
 [[nodiscard]] History refined(const History& history, const CellMarks& marked, Scheme scheme);
 
+/// The same with Closure::regular and Scheme::eight. The history must have been made so.
+///
+/// A cell of the input is regular, of generation 0. If all six edges of a regular cell of
+/// generation g are bisected, its eight children are regular, of generation g + 1. If one to five
+/// are bisected, its children are transition cells, which are not bisected. The edges of regular
+/// cells that are bisected are the least set B such that
+///  (1) B contains the six edges of each marked regular cell and of the parent of each marked
+///      transition cell; and if the latter is one of the eight children that its parent has when
+///      all its edges are bisected, then its own edges, too;
+///  (2) if B contains an edge of a face of a regular cell, it contains the face's longest edge;
+///  (3) if B contains an edge of the four triangles into which a face of a regular cell is bisected
+///      by all its edges, other than an edge of the face, it contains the cell's six edges.
+/// Step g bisects the edges in B of the cells of generation g: refinement can add edges to earlier
+/// steps, which changes the numbers of vertices.
+[[nodiscard]] History refined_regularly(const History& history, const CellMarks& marked);
+
 /// Coarsens the cells marked in `may_coarsen` by one generation each, where possible.
 ///
 /// The vertices that are kept are the least set K such that
@@ -41,10 +58,14 @@ using CellMarks = IndexVector<CellIndex, char>;
 ///  (b) if K contains the midpoint of an edge of step t, then for every face of the mesh before
 ///      step t that has this edge, K contains the midpoint of that face's longest edge.
 /// Edges whose midpoints are removed are removed from their steps, and empty steps are dropped.
-/// (b) is the rule of closure, so the rest of each step is closed.
+/// (b) is the rule of closure, so the rest of each step is closed. With Closure::regular, in
+/// addition,
+///  (c) if K contains the midpoint of an edge of a child of a cell, it contains all midpoints of the
+///      cell's edges: otherwise a transition cell would be bisected.
 ///
 /// If midpoints were rounded, a cell without them may be flat or inverted although its children
 /// were not: replay() of the result then throws.
-[[nodiscard]] History coarsened(const History& history, const CellMarks& may_coarsen);
+[[nodiscard]] History coarsened(const History& history, const CellMarks& may_coarsen,
+                                Closure closure = Closure::longest_edge);
 
 }  // namespace octetra::reference

@@ -36,4 +36,9 @@ struct Refinement {
 [[nodiscard]] Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme,
                                 int levels, std::size_t max_cells = unlimited);
 
+/// The same with Closure::regular and Scheme::eight; see refined_regularly(). `max_cells` applies
+/// to the mesh after each level.
+[[nodiscard]] Refinement refine_regularly(const Mesh& mesh, const Selection& selection, int levels,
+                                          std::size_t max_cells = unlimited);
+
 }  // namespace octetra::reference

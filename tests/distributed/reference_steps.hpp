@@ -17,9 +17,14 @@ public:
         history_ = reference::refined(history_, marked_cells(present_, selection), scheme);
         update();
     }
-    void coarsen(const Selection& selection) {
+    void refine_regularly(const Selection& selection) {
         if (!world().is_first()) return;
-        history_ = reference::coarsened(history_, marked_cells(present_, selection));
+        history_ = reference::refined_regularly(history_, marked_cells(present_, selection));
+        update();
+    }
+    void coarsen(const Selection& selection, Closure closure = Closure::longest_edge) {
+        if (!world().is_first()) return;
+        history_ = reference::coarsened(history_, marked_cells(present_, selection), closure);
         update();
     }
 

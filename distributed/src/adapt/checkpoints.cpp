@@ -18,6 +18,7 @@
 #include "history/cut_roots.hpp"
 #include "history/steps_of.hpp"
 #include "level/incremental/adjacency.hpp"
+#include "regular/transition_cells_of.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -63,6 +64,13 @@ void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& fact
     }
 }
 
+/// Makes a mesh one that was refined with the regular closure. Throws InputError if it was not.
+void set_regular(DistributedMesh& mesh) {
+    restore_canonical_order(mesh);
+    (void)transition_cells_of(mesh);
+    mesh.closure = Closure::regular;
+}
+
 /// Adds the name of the file to the messages of InputErrors about the mesh.
 auto with_file_name(const std::filesystem::path& path, auto&& work) {
     try {
@@ -105,6 +113,7 @@ AdaptiveMesh AdaptiveMesh::load(const Communicator& processes, const std::filesy
             auto of_file = State::make(distribute_parts(processes, std::move(part.input)));
             of_file->mesh.features = std::move(part.features);
             redo(*of_file, std::move(part.cuts), file.facts());
+            if (file.facts().closure == Closure::regular) set_regular(of_file->mesh);
             return of_file;
         });
         if (fields != nullptr) {

@@ -84,8 +84,10 @@ std::optional<Coarsening> plan_coarsening(AdaptiveMesh::State& state,
     DistributedMesh& mesh = state.mesh;
     const Communicator& processes = mesh.processes;
     const MarkedCells marked = mark();
-    Adjacency* const adjacency =
-        suits_incremental_level(mesh, marked, tuning) ? &Adjacency::of(mesh) : nullptr;
+    // Regular refinement leaves the mesh in canonical order, which its coarsening requires.
+    const bool is_incremental =
+        mesh.closure != Closure::regular && suits_incremental_level(mesh, marked, tuning);
+    Adjacency* const adjacency = is_incremental ? &Adjacency::of(mesh) : nullptr;
     const KeptVertices kept = find_kept_vertices(mesh, state.sharing, marked, adjacency);
     const auto removed_count = static_cast<std::uint64_t>(std::ranges::count(kept, 0));
     if (processes.max(removed_count) == 0) return std::nullopt;

@@ -24,6 +24,18 @@ EntityTransfer EntityTransfer::of_all(std::vector<std::uint8_t> division_of,
     return entity_transfer;
 }
 
+EntityTransfer EntityTransfer::of_parents(std::size_t count_before,
+                                          std::vector<std::uint32_t> before,
+                                          std::vector<std::uint8_t> halvings) {
+    EntityTransfer entity_transfer(count_before);
+    entity_transfer.count_ = before.size();
+    entity_transfer.keeps_numbers_ = false;
+    entity_transfer.lists_parents_ = true;
+    entity_transfer.before_ = std::move(before);
+    entity_transfer.halvings_ = std::move(halvings);
+    return entity_transfer;
+}
+
 std::vector<std::uint32_t> EntityTransfer::parents() const {
     std::vector<std::uint32_t> parents(count_);
     if (keeps_numbers_) {

@@ -30,6 +30,7 @@ Adaptation unchanged(const DistributedMesh& mesh) {
 
 RefineOptions level_options(const StepOptions& options) {
     return {.scheme = options.scheme,
+            .closure = options.closure,
             .levels = 1,
             .synchronisation = options.synchronisation,
             .max_cells = options.max_cells,
@@ -54,14 +55,19 @@ Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
     const StandardArithmetic standard;
     const int level = step_count + 1;
     const Phase phase(mesh.processes, "level", level);
+    // Processes with different options refuse them in either branch.
+    if (options.closure == Closure::regular) return refine_state_regularly(*this, mark, options);
     std::optional<NumberedLevel> numbered;
     mesh.processes.transaction([&] {
         check_same(mesh.processes, options);
+        check_closure(mesh, options);
         note_cells_before_level();
         PlannedLevel plan = plan_level(mesh, mark, level_options(options), tuning, level);
         if (plan.changes_anything()) numbered.emplace(*this, std::move(plan));
     });
-    return numbered ? numbered->commit() : unchanged(mesh);
+    if (!numbered) return unchanged(mesh);
+    mesh.closure = Closure::longest_edge;
+    return numbered->commit();
 }
 
 void AdaptiveMesh::State::note_cells_before_level() const {

@@ -54,6 +54,18 @@ struct AdaptiveMesh::State {
                                            const BalanceOptions& balance,
                                            const StepOptions& options, const Tuning& tuning = {});
 
+/// Collective. Performs a step with Closure::regular.
+[[nodiscard]] Adaptation refine_state_regularly(AdaptiveMesh::State& state,
+                                                const std::function<MarkedCells()>& mark,
+                                                const StepOptions& options);
+
+/// Collective. The same, preceded by a migration of roots if the processes have too different
+/// numbers of cells before the step.
+[[nodiscard]] EvenStep refine_state_evenly_and_regularly(AdaptiveMesh::State& state,
+                                                         const std::function<MarkedCells()>& mark,
+                                                         const BalanceOptions& balance,
+                                                         const StepOptions& options);
+
 /// Collective. Coarsens marked cells by one generation.
 [[nodiscard]] Adaptation coarsen_state(AdaptiveMesh::State& state,
                                        const std::function<MarkedCells()>& mark,

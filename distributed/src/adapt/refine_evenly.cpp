@@ -17,6 +17,9 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
                              const BalanceOptions& balance, const StepOptions& options,
                              const Tuning& tuning) {
     const StandardArithmetic standard;
+    if (options.closure == Closure::regular) {
+        return refine_state_evenly_and_regularly(state, mark, balance, options);
+    }
     const Communicator processes = state.mesh.processes;
     const int level = state.step_count + 1;
     const Phase phase(processes, "level", level);

@@ -42,6 +42,19 @@ void check_same(const Communicator& processes, const StepOptions& options) {
     check("is_last", options.is_last, first.is_last);
 }
 
+void check_closure(const DistributedMesh& mesh, const StepOptions& options) {
+    if (options.closure == Closure::regular && options.scheme != Scheme::eight) {
+        throw InputError("the regular closure requires the scheme 8t");
+    }
+    if (mesh.level_begin.empty() || mesh.closure == options.closure) return;
+    const auto name = [](Closure closure) {
+        return closure == Closure::regular ? "regular" : "longest-edge";
+    };
+    throw InputError(fmt::format(
+        "the mesh was refined with the {} closure; it cannot be refined with the {} closure",
+        name(mesh.closure), name(options.closure)));
+}
+
 void check_same(const Communicator& processes, const BalanceOptions& options) {
     // NaN must be rejected first, since it differs from itself.
     if (!(options.most_over_mean >= 1)) {

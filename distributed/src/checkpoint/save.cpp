@@ -35,6 +35,8 @@ CheckpointFacts facts_of(const SavedMesh& saved, const MeshFacts& input,
                           .features = input.features,
                           .vertices_now = saved.numbers->vertex_count,
                           .cells_now = cells_now,
+                          .closure = saved.steps.empty() ? Closure::longest_edge
+                                                         : saved.mesh->closure,
                           .steps = std::vector<StepFacts>(saved.steps.size()),
                           .fields = {},
                           .group_names = input.group_names.list(),

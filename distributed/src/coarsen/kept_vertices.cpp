@@ -1,11 +1,13 @@
 #include "coarsen/kept_vertices.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include <octetra/core/edge_order.hpp>
 
 #include "coarsen/level_removals.hpp"
+#include "history/families.hpp"
 #include "history/vertex_levels.hpp"
 
 namespace octetra::distributed {
@@ -60,6 +62,36 @@ public:
                           [&](CellIndex c) { return close(mesh_->cells[c], changed); });
             std::ranges::reverse(open_cells_);  // marks may affect earlier cells
         }
+    }
+
+    /// Applies rule (c) once to all cells of this process; the mesh must be in canonical order.
+    /// Returns whether anything changed.
+    bool complete_families() {
+        struct Note {
+            bool has_kept_midpoint = false;
+        };
+        using CellFamilies = Families<4, Note>;
+        bool changed = false;
+        CellFamilies families(levels_);
+        const auto on_parent = [&](std::uint32_t level, const CellVertices&,
+                                   std::span<const CellFamilies::Member> members) {
+            const bool keeps_all = std::ranges::any_of(
+                members, [](const auto& member) { return member.note.has_kept_midpoint; });
+            Note parent;
+            for (const CellFamilies::Member& member : members) {
+                for (const VertexIndex v : member.vertices) {
+                    if (v < levels_.begin(level)) continue;
+                    changed = changed || (keeps_all && !has(v));
+                    if (keeps_all) keep(v);
+                    parent.has_kept_midpoint = parent.has_kept_midpoint || has(v);
+                }
+            }
+            return parent;
+        };
+        for (const CellVertices& cell : mesh_->cells) {
+            families.add(cell, {}, on_parent, [](auto&&...) {});
+        }
+        return changed;
     }
 
 private:
@@ -275,7 +307,9 @@ KeptVertices find_kept_vertices(const DistributedMesh& mesh, const Sharing<Verte
     kept_exchange.apply_initial(
         processes.exchange_with(kept_exchange.ranks(), kept_exchange.first(search)), search);
     while (true) {
-        search.close();
+        do {
+            search.close();
+        } while (mesh.closure == Closure::regular && search.complete_families());
         const Outboxes outboxes = kept_exchange.pending(search);
         if (processes.max(count_of(outboxes)) == 0) return std::move(search).result();
         kept_exchange.apply(processes.exchange_after_agreement(kept_exchange.ranks(), outboxes),

@@ -16,7 +16,8 @@ using KeptVertices = IndexVector<VertexIndex, std::uint8_t>;
 /// Collective. Determines the vertices that are kept when the marked cells are coarsened by one
 /// generation: (a) the vertices of the input, of a current cell that is not marked, and of any cell
 /// that a step bisected; and (b) for each kept midpoint of an edge and each face that had this edge
-/// when it was bisected, the midpoint of the face's longest edge.
+/// when it was bisected, the midpoint of the face's longest edge; and (c), with Closure::regular,
+/// all midpoints of the edges of a cell if a midpoint of an edge of one of its children is kept.
 ///
 /// The current mesh is sufficient to decide this. A cell that was bisected has a descendant at each
 /// of its corners, with vertices that are newer than the corner. And if two edges of a face were

@@ -143,6 +143,7 @@ DistributedMesh input_of(const DistributedMesh& mesh) {
     input.input_cell_count = mesh.input_cell_count;
     input.index_base = mesh.index_base;
     input.group_names = mesh.group_names;
+    input.closure = mesh.closure;
     input.features = mesh.features;
     return input;
 }

@@ -7,7 +7,7 @@
 #include <octetra/distributed/entity_transfer.hpp>
 #include <octetra/distributed/refine.hpp>
 
-#include "level/closure.hpp"
+#include "level/marked_edges.hpp"
 #include "level/marked_cells.hpp"
 #include "level/rounding_failure.hpp"
 #include "pattern/patterns.hpp"
@@ -38,7 +38,7 @@ public:
 
     /// The marked edges, at first those of the marked cells; to be closed together with the other
     /// processes.
-    [[nodiscard]] virtual Closure& closure() = 0;
+    [[nodiscard]] virtual MarkedEdges& closure() = 0;
 
     /// Returns the cells that the closed level bisects, ascending, each with its marked edges.
     [[nodiscard]] virtual MarkedCells closed_marks() = 0;

@@ -38,7 +38,7 @@ void check_allowed(const DistributedMesh& mesh, std::size_t count, const RefineO
 }
 
 /// Collective. Closes the marked edges.
-SynchronisationCounts close(Closure& closure, const DistributedMesh& mesh,
+SynchronisationCounts close(MarkedEdges& closure, const DistributedMesh& mesh,
                             const RefineOptions& options) {
     const Phase phase(mesh.processes, "synchronise");
     return options.synchronisation == Synchronisation::neighbour
@@ -82,8 +82,8 @@ MarkedCells renumbered(MarkedCells marked, const std::vector<CellIndex>& before)
 }
 
 void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuning& tuning,
-                 MarkedCells marked, PlannedLevel& plan) {
-    if (suits_incremental_level(mesh, marked, tuning, options.is_last)) {
+                 MarkedCells marked, PlannedLevel& plan, const TransitionCells* transition) {
+    if (transition == nullptr && suits_incremental_level(mesh, marked, tuning, options.is_last)) {
         auto level = std::make_unique<IncrementalLevel>(mesh);
         const Phase phase(mesh.processes, "select");
         level->mark(marked, options.scheme);
@@ -95,20 +95,21 @@ void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuni
         plan.order = std::make_unique<CanonicalOrder>(mesh);
         marked = renumbered(std::move(marked), plan.order->cells_before());
     }
-    auto level = std::make_unique<FullSweepLevel>(mesh, marked, tuning.local_below);
+    auto level = std::make_unique<FullSweepLevel>(mesh, marked, tuning.local_below, transition);
     const Phase phase(mesh.processes, "select");
     level->mark(marked, options.scheme);
     plan.level = std::move(level);
 }
 
 PlannedLevel close_level(DistributedMesh& mesh, const std::function<MarkedCells()>& mark_cells,
-                         const RefineOptions& options, const Tuning& tuning) {
+                         const RefineOptions& options, const Tuning& tuning,
+                         const TransitionCells* transition) {
     const Communicator& processes = mesh.processes;
     MarkedCells marked = in_phase(processes, "select", mark_cells);
     PlannedLevel plan;
     plan.tested = marked.tested;
     if (processes.max(marked.count) == 0) return plan;
-    begin_level(mesh, options, tuning, std::move(marked), plan);
+    begin_level(mesh, options, tuning, std::move(marked), plan, transition);
     plan.counts = close(plan.level->closure(), mesh, options);
     return plan;
 }

@@ -6,6 +6,7 @@
 #include "level/incremental/adjacency.hpp"
 #include "level/level.hpp"
 #include "level/marked_cells.hpp"
+#include "level/transition_cells.hpp"
 #include "level/tuning.hpp"
 
 namespace octetra::distributed {
@@ -28,15 +29,18 @@ struct PlannedLevel {
     }
 };
 
-/// Collective. Marks and closes a level; nothing is bisected yet. Throws as plan_level() does.
+/// Collective. Marks and closes a level; nothing is bisected yet. Throws as plan_level() does. With
+/// `transition`, the level is a full sweep, and the mesh must be in canonical order.
 [[nodiscard]] PlannedLevel close_level(DistributedMesh& mesh,
                                        const std::function<MarkedCells()>& mark_cells,
-                                       const RefineOptions& options, const Tuning& tuning);
+                                       const RefineOptions& options, const Tuning& tuning,
+                                       const TransitionCells* transition = nullptr);
 
 /// Begins a level by marking edges of the marked cells, and stores it in `plan`. If the marks are
 /// known to be closed on all processes, the result is a closed level. Not collective.
 void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuning& tuning,
-                 MarkedCells marked, PlannedLevel& plan);
+                 MarkedCells marked, PlannedLevel& plan,
+                 const TransitionCells* transition = nullptr);
 
 /// Collective. Bisects a closed level, which all processes can then commit. Throws as plan_level()
 /// does.

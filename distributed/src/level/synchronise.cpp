@@ -25,7 +25,7 @@ std::uint64_t count(const std::vector<std::vector<T>>& boxes) {
 }
 
 /// The local closure of the paper: all marks that follow without communication.
-void close_locally(Closure& closure, const DistributedMesh& mesh) {
+void close_locally(MarkedEdges& closure, const DistributedMesh& mesh) {
     const Phase phase(mesh.processes, "closure");
     closure.drain();
 }
@@ -79,7 +79,7 @@ std::vector<BorderSelection> addressed(const Outboxes& outboxes, const Distribut
 
 }  // namespace
 
-SynchronisationCounts synchronise_by_neighbours(Closure& closure, const DistributedMesh& mesh) {
+SynchronisationCounts synchronise_by_neighbours(MarkedEdges& closure, const DistributedMesh& mesh) {
     const Communicator& processes = mesh.processes;
     const std::vector<int> neighbours = neighbours_of(mesh);
     SynchronisationCounts counts;
@@ -99,7 +99,7 @@ SynchronisationCounts synchronise_by_neighbours(Closure& closure, const Distribu
     }
 }
 
-SynchronisationCounts synchronise_by_gateway(Closure& closure, const DistributedMesh& mesh) {
+SynchronisationCounts synchronise_by_gateway(MarkedEdges& closure, const DistributedMesh& mesh) {
     const Communicator& processes = mesh.processes;
     const std::vector<int> neighbours = neighbours_of(mesh);
     Gateway gateway;

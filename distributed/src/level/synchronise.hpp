@@ -2,17 +2,17 @@
 
 #include <octetra/distributed/refine.hpp>
 
-#include "level/closure.hpp"
+#include "level/marked_edges.hpp"
 
 namespace octetra::distributed {
 
 /// Collective. Closes the marked edges over all processes: in each round every process drains its
 /// closure and sends new marks to the ranks that share the edges, until no process has new marks.
-[[nodiscard]] SynchronisationCounts synchronise_by_neighbours(Closure& closure,
+[[nodiscard]] SynchronisationCounts synchronise_by_neighbours(MarkedEdges& closure,
                                                               const DistributedMesh& mesh);
 
 /// Collective. The same through the first process (the paper's gateway).
-[[nodiscard]] SynchronisationCounts synchronise_by_gateway(Closure& closure,
+[[nodiscard]] SynchronisationCounts synchronise_by_gateway(MarkedEdges& closure,
                                                            const DistributedMesh& mesh);
 
 }  // namespace octetra::distributed

@@ -237,6 +237,7 @@ MergedPart merge_parts(const DistributedMesh& before, const Departures& departur
     mesh.input_cell_count = before.input_cell_count;
     mesh.index_base = before.index_base;
     mesh.group_names = before.group_names;
+    mesh.closure = before.closure;
     mesh.features = before.features;
     const DistributedMesh& received = arrivals.part;
     const auto stays = staying_vertices(before, departures);

@@ -193,10 +193,8 @@ PatternTable::PatternTable()
             }
         }
         for (unsigned mask = 0; mask < mask_count; ++mask) {
-            const std::size_t entry = order * mask_count + mask;
-            if (closure_[entry] != mask) continue;
-            pattern_number_[entry] = bisections.pattern_of(static_cast<EdgeMask>(mask),
-                                                           longest_first, patterns_, divisions_);
+            pattern_number_[order * mask_count + mask] = bisections.pattern_of(
+                static_cast<EdgeMask>(mask), longest_first, patterns_, divisions_);
         }
         std::ranges::next_permutation(longest_first);
     }

@@ -62,7 +62,8 @@ public:
     [[nodiscard]] EdgeMask closure(LengthOrder order, EdgeMask marked) const {
         return closure_[order * mask_count + marked];
     }
-    /// Returns the bisection of a cell with these edges marked. The set must be closed.
+    /// Returns the bisection of a cell with these edges marked. The set need not be closed: see
+    /// TransitionCells.
     [[nodiscard]] const Pattern& pattern(LengthOrder order, EdgeMask marked) const {
         return patterns_[pattern_number_[order * mask_count + marked]];
     }

@@ -34,7 +34,7 @@ inline constexpr std::array<Division, 2> edge_divisions{{{1, {0}}, {2, {1, 1}}}}
 }
 
 /// Bisects a triangle. `midpoints` are those of its edges, in the order of triangle_edges; none()
-/// for edges that are not bisected. The marks must be closed.
+/// for edges that are not bisected.
 [[nodiscard]] BisectedTriangle bisect_triangle(const FacetVertices& triangle,
                                                const std::array<VertexIndex, 3>& midpoints,
                                                const IndexVector<VertexIndex, Point>& points);

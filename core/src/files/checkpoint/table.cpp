@@ -26,13 +26,15 @@ constexpr std::uint64_t edge_markers = 8;
 constexpr std::uint64_t group_names = 16;
 constexpr std::uint64_t features = 32;
 constexpr std::uint64_t state = 64;
+constexpr std::uint64_t regular_closure = 128;
 
 std::uint64_t flags_of(const CheckpointFacts& facts) {
     return (facts.has_point_markers ? point_markers : 0U) | (facts.has_regions ? regions : 0U) |
            (facts.has_facet_markers ? facet_markers : 0U) |
            (facts.has_edge_markers ? edge_markers : 0U) |
            (facts.group_names.empty() ? 0U : group_names) |
-           (has_any(facts.features) ? features : 0U) | (facts.state ? state : 0U);
+           (has_any(facts.features) ? features : 0U) | (facts.state ? state : 0U) |
+           (facts.closure == Closure::regular ? regular_closure : 0U);
 }
 
 void put(std::vector<std::byte>& bytes, const void* data, std::size_t size) {
@@ -137,11 +139,12 @@ void read_facts(Table& table, CheckpointFacts& facts) {
     }
     facts.attributes_per_point = table.number_to(1U << 20U, "attributes of a vertex");
     facts.index_base = static_cast<std::uint32_t>(table.number_to(1, "as the index base"));
-    const std::uint64_t flags = table.number_to(127, "as flags");
+    const std::uint64_t flags = table.number_to(255, "as flags");
     facts.has_point_markers = (flags & point_markers) != 0;
     facts.has_regions = (flags & regions) != 0;
     facts.has_facet_markers = (flags & facet_markers) != 0;
     facts.has_edge_markers = (flags & edge_markers) != 0;
+    if ((flags & regular_closure) != 0) facts.closure = Closure::regular;
     facts.steps.resize(table.count(3 * sizeof(std::uint64_t), "steps"));
     for (StepFacts& step : facts.steps) {
         step.cells_before = table.number();

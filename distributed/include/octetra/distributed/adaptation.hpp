@@ -27,7 +27,8 @@ struct RemovedVertex {
 /// the step to those before it. All numbers are local. It stays valid independently of later
 /// changes of the mesh. No function is collective.
 ///
-/// In refinement, vertices keep their numbers, and new ones are appended. In coarsening, the
+/// In refinement, vertices keep their numbers, and new ones are appended, unless the closure is
+/// Closure::regular: then they keep their order, and new ones are inserted. In coarsening, the
 /// remaining vertices keep their order.
 struct Adaptation {
     /// Whether anything changed on any process; the same on all.
@@ -36,10 +37,12 @@ struct Adaptation {
     EntityTransfer facets;  ///< tagged ones
     EntityTransfer edges;   ///< tagged ones
     std::size_t vertex_count_before = 0;
-    /// The ends of the edge of which each new vertex is the midpoint, lower first. The first new
-    /// vertex has the number vertex_count_before.
+    /// The ends of the edge of which each new vertex is the midpoint, lower first, by their numbers
+    /// after the step. Unless there are vertices_before, the first new vertex has the number
+    /// vertex_count_before.
     std::vector<EdgeVertices> new_vertex_ends;
-    /// Coarsening only: the number of each vertex before the step.
+    /// Coarsening and refinement with Closure::regular: the number of each vertex before the step;
+    /// none() for new vertices.
     std::vector<VertexIndex> vertices_before;
     /// Coarsening only: the vertices of this process that were removed, ascending.
     std::vector<RemovedVertex> removed_vertices;
@@ -47,6 +50,12 @@ struct Adaptation {
 
     /// Returns whether the step was coarsening.
     [[nodiscard]] bool is_coarser() const { return cells.merges(); }
+
+    /// Returns the number of vertices after the step.
+    [[nodiscard]] std::size_t vertex_count() const {
+        return vertices_before.empty() ? vertex_count_before + new_vertex_ends.size()
+                                       : vertices_before.size();
+    }
 
     /// Transfers a continuous, piecewise linear function (P1), given by `components` values for
     /// each vertex. A new vertex gets the mean of the ends of its edge, where the function has this
@@ -64,13 +73,8 @@ struct Adaptation {
             throw std::invalid_argument(
                 "whole numbers of an edge's ends have no mean for its midpoint");
         }
-        for (const auto& [a, b] : new_vertex_ends) {
-            for (std::size_t k = 0; k < components; ++k) {
-                values.push_back(
-                    (values[a.value() * components + k] + values[b.value() * components + k]) /
-                    Real<T>(2));
-            }
-        }
+        if (!vertices_before.empty()) return inserted(values, components);
+        for (const EdgeVertices& ends : new_vertex_ends) append_mean(values, ends, components);
         return values;
     }
 
@@ -133,6 +137,35 @@ struct Adaptation {
     }
 
 private:
+    /// Appends the mean of the values of two vertices.
+    template <class T>
+    static void append_mean(std::vector<T>& values, const EdgeVertices& ends,
+                            std::size_t components) {
+        const auto& [a, b] = ends;
+        for (std::size_t k = 0; k < components; ++k) {
+            values.push_back(
+                (values[a.value() * components + k] + values[b.value() * components + k]) /
+                Real<T>(2));
+        }
+    }
+    /// Returns the values with those of new vertices between them; the ends of an edge precede its
+    /// midpoint.
+    template <class T>
+    std::vector<T> inserted(const std::vector<T>& values, std::size_t components) const {
+        std::vector<T> after;
+        after.reserve(vertices_before.size() * components);
+        auto new_ends = new_vertex_ends.begin();
+        for (const VertexIndex before : vertices_before) {
+            if (before.is_none()) {
+                append_mean(after, *new_ends++, components);
+                continue;
+            }
+            for (std::size_t k = 0; k < components; ++k) {
+                after.push_back(values[before.value() * components + k]);
+            }
+        }
+        return after;
+    }
     /// Vertices are ascending, so no value is overwritten before it is moved.
     template <class T>
     std::vector<T> kept(std::vector<T> values, std::size_t components) const {

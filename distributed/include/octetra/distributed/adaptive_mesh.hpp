@@ -36,6 +36,8 @@ namespace octetra::distributed {
 /// Options of a step, the same on all processes.
 struct StepOptions {
     Scheme scheme = Scheme::eight;  ///< the edges that a marked cell marks
+    /// Closure::regular requires Scheme::eight and a mesh that was refined with no other closure.
+    Closure closure = Closure::longest_edge;
     /// Does not affect the result.
     Synchronisation synchronisation = Synchronisation::neighbour;
     /// A step after which the whole mesh would have more cells than this is refused.

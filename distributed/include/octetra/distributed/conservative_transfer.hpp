@@ -38,9 +38,7 @@ requires(std::floating_point<T> || is_complex<T>)
         if (values.size() != step.vertex_count_before * components) {
             throw InputError("values do not fit the mesh as it was before the step");
         }
-        const std::size_t count = step.is_coarser()
-                                      ? step.vertices_before.size()
-                                      : step.vertex_count_before + step.new_vertex_ends.size();
+        const std::size_t count = step.vertex_count();
         if (count != mesh.points().size() || step.cells.count() != mesh.cells().size()) {
             throw InputError("the step did not lead to the current mesh");
         }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include <octetra/core/closure.hpp>
 #include <octetra/core/features.hpp>
 #include <octetra/core/index.hpp>
 #include <octetra/core/maps.hpp>
@@ -92,6 +93,8 @@ struct DistributedMesh {
     std::uint64_t input_cell_count = 0;
     std::uint32_t index_base = 0;
     SharedGroupNames group_names;
+    /// The closure of all levels so far, if there are any.
+    Closure closure = Closure::longest_edge;
 
     /// The features of the input, if it has any: either all processes have these lists or none has.
     /// Each process has those of a share of the numbers, whatever parts the entities belong to;

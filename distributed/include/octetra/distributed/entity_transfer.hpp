@@ -54,6 +54,12 @@ public:
     /// keeps_numbers() is false, all entities are visited in ascending order; if it is true, only
     /// the children of bisected entities.
     void for_each_new(auto&& visit) const {
+        if (lists_parents_) {
+            for (std::size_t k = 0; k < count_; ++k) {
+                visit(k, std::size_t{before_[k]}, unsigned{halvings_[k]});
+            }
+            return;
+        }
         std::size_t next = keeps_numbers_ ? count_before_ : 0;
         const auto pieces = [&](std::uint32_t before, const Division& division, bool in_place) {
             for (std::size_t k = 0; k < division.piece_count; ++k) {
@@ -89,6 +95,11 @@ public:
     [[nodiscard]] static EntityTransfer of_all(std::vector<std::uint8_t> division_of,
                                                std::span<const Division> divisions);
 
+    /// The map for a list of new numbers: `before` has the number of the same entity or of its
+    /// parent before the step, `halvings` the number of bisections between them.
+    [[nodiscard]] static EntityTransfer of_parents(std::size_t count_before,
+                                                   std::vector<std::uint32_t> before,
+                                                   std::vector<std::uint8_t> halvings);
     /// The map for a list whose entities were merged into `count` coarse ones. `halvings` is empty
     /// for facets and edges.
     [[nodiscard]] static EntityTransfer of_merges(std::size_t count,
@@ -107,6 +118,7 @@ private:
     std::vector<Cut> cuts_;
     std::vector<std::uint32_t> before_;
     std::vector<std::uint8_t> division_of_;
+    bool lists_parents_ = false;
     bool merges_ = false;
     std::vector<std::uint32_t> coarse_of_;
     std::vector<std::uint8_t> halvings_;

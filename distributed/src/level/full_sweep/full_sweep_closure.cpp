@@ -7,8 +7,13 @@
 namespace octetra::distributed {
 
 FullSweepClosure::FullSweepClosure(LocalEdgeSet& edges, CellOrders& orders,
-                                   const std::vector<Interface>& interfaces)
-    : edges_(&edges), orders_(&orders), interfaces_(&interfaces), outboxes_(interfaces.size()) {
+                                   const std::vector<Interface>& interfaces,
+                                   const TransitionCells* transition)
+    : edges_(&edges),
+      orders_(&orders),
+      interfaces_(&interfaces),
+      transition_(transition),
+      outboxes_(interfaces.size()) {
     make_marks();
 }
 
@@ -74,8 +79,10 @@ EdgeMask FullSweepClosure::marked_of(CellIndex cell) const {
 void FullSweepClosure::close(CellIndex cell) {
     const EdgeMask mask = marked_of(cell);
     if (is_all_or_none(mask)) return;
-    const auto missing =
-        static_cast<EdgeMask>(table_->closure(orders_->of(cell), mask) & ~unsigned{mask});
+    const bool is_transition = transition_ != nullptr && transition_->contains(cell);
+    const EdgeMask closed =
+        is_transition ? transition_->closure(cell, mask) : table_->closure(orders_->of(cell), mask);
+    const auto missing = static_cast<EdgeMask>(closed & ~unsigned{mask});
     for (std::size_t e = 0; missing >> e != 0; ++e) {
         if ((missing >> e & 1U) == 0) continue;
         mark(numbering_->edges_of(cell)[e]);

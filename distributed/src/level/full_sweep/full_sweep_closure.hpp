@@ -5,8 +5,9 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "level/closure.hpp"
 #include "level/full_sweep/local_edge_set.hpp"
+#include "level/marked_edges.hpp"
+#include "level/transition_cells.hpp"
 #include "pattern/cell_orders.hpp"
 #include "pattern/patterns.hpp"
 
@@ -19,11 +20,11 @@ namespace octetra::distributed {
 /// Sweeps alternate in direction. Under one numbering there are at most eight, each of which leaves
 /// about a tenth of the queue. If edges are still queued then, an index of the cells at each edge
 /// is built, which costs about as much as six sweeps, and the queue is processed edge by edge.
-class FullSweepClosure final : public Closure {
+class FullSweepClosure final : public MarkedEdges {
 public:
-    /// Keeps references to all arguments.
+    /// Keeps references to all arguments. `transition` may be null: there are no such cells.
     FullSweepClosure(LocalEdgeSet& edges, CellOrders& orders,
-                     const std::vector<Interface>& interfaces);
+                     const std::vector<Interface>& interfaces, const TransitionCells* transition);
 
     /// Marks every edge, all of which are numbered. All processes must do the same: the sharers are
     /// not notified.
@@ -61,6 +62,7 @@ private:
     const EdgeNumbering* numbering_ = &edges_->numbering();
     CellOrders* orders_;
     const std::vector<Interface>* interfaces_;
+    const TransitionCells* transition_;
     const PatternTable* table_ = &PatternTable::get();
     IndexVector<EdgeIndex, std::uint8_t> marked_;
     IndexVector<EdgeIndex, std::uint8_t> shared_;  // empty if no edge is

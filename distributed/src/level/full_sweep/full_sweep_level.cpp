@@ -148,12 +148,13 @@ FullSweepLevel::NewList<List> FullSweepLevel::replaced_by_children(const List& l
     return pieces;
 }
 
-FullSweepLevel::FullSweepLevel(DistributedMesh& mesh, const MarkedCells& marked, double local_below)
+FullSweepLevel::FullSweepLevel(DistributedMesh& mesh, const MarkedCells& marked, double local_below,
+                               const TransitionCells* transition)
     : mesh_(&mesh),
       edges_(in_phase(mesh.processes, "number edges",
                       [&] { return LocalEdgeSet(mesh, marked, local_below); })),
       orders_(mesh),
-      closure_(edges_, orders_, mesh.interfaces) {}
+      closure_(edges_, orders_, mesh.interfaces, transition) {}
 
 void FullSweepLevel::mark(const MarkedCells& marked, Scheme scheme) {
     if (marked.all && scheme == Scheme::eight) {

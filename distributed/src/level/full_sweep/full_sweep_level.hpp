@@ -19,12 +19,13 @@ namespace octetra::distributed {
 class FullSweepLevel final : public Level {
 public:
     /// The mesh must be in canonical order.
-    FullSweepLevel(DistributedMesh& mesh, const MarkedCells& marked, double local_below);
+    FullSweepLevel(DistributedMesh& mesh, const MarkedCells& marked, double local_below,
+                   const TransitionCells* transition);
 
     /// Marks edges of the marked cells, the same as passed to the constructor.
     void mark(const MarkedCells& marked, Scheme scheme);
 
-    [[nodiscard]] Closure& closure() override { return closure_; }
+    [[nodiscard]] MarkedEdges& closure() override { return closure_; }
     [[nodiscard]] MarkedCells closed_marks() override;
     void bisect_edges() override;
     [[nodiscard]] std::size_t cell_count_afterwards() override;

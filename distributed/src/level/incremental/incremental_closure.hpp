@@ -6,7 +6,7 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "level/closure.hpp"
+#include "level/marked_edges.hpp"
 #include "level/incremental/adjacency.hpp"
 #include "pattern/patterns.hpp"
 
@@ -14,7 +14,7 @@ namespace octetra::distributed {
 
 /// Closure that numbers marked edges only. Marking an edge updates the notes of all cells with the
 /// edge, which are found at its ends; so the note of a cell is always complete.
-class IncrementalClosure final : public Closure {
+class IncrementalClosure final : public MarkedEdges {
 public:
     /// The state of a cell that the closure has processed.
     struct Note {

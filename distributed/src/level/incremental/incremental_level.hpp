@@ -28,7 +28,7 @@ public:
     /// Marks edges of the marked cells.
     void mark(const MarkedCells& marked, Scheme scheme);
 
-    [[nodiscard]] Closure& closure() override { return closure_; }
+    [[nodiscard]] MarkedEdges& closure() override { return closure_; }
     [[nodiscard]] MarkedCells closed_marks() override;
     void bisect_edges() override;
     [[nodiscard]] std::size_t cell_count_afterwards() override;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <octetra/core/closure.hpp>
 #include <octetra/core/field.hpp>
 #include <octetra/core/mesh.hpp>
 
@@ -52,6 +53,7 @@ struct CheckpointFacts {
     std::uint64_t vertices_now = 0;
     std::uint64_t cells_now = 0;
 
+    Closure closure = Closure::longest_edge;  ///< of all steps
     std::vector<StepFacts> steps;
     std::vector<FieldFacts> fields;
     std::vector<GroupName> group_names;

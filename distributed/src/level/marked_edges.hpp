@@ -8,14 +8,14 @@ namespace octetra::distributed {
 
 /// The marked edges of this process during closure. Edges are marked by this process or on behalf
 /// of another rank; drain() follows the propagation paths within this part.
-class Closure {
+class MarkedEdges {
 public:
-    Closure() = default;
-    virtual ~Closure() = default;
-    Closure(const Closure&) = delete;
-    Closure& operator=(const Closure&) = delete;
-    Closure(Closure&&) = delete;
-    Closure& operator=(Closure&&) = delete;
+    MarkedEdges() = default;
+    virtual ~MarkedEdges() = default;
+    MarkedEdges(const MarkedEdges&) = delete;
+    MarkedEdges& operator=(const MarkedEdges&) = delete;
+    MarkedEdges(MarkedEdges&&) = delete;
+    MarkedEdges& operator=(MarkedEdges&&) = delete;
 
     /// Marks the edge at this position of an interface's list, as requested by the other rank.
     virtual void mark_from(std::size_t interface, std::uint32_t position) = 0;

@@ -1,0 +1,173 @@
+#include <random>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/partition.hpp>
+
+#include "distributed/marked_mesh.hpp"
+#include "distributed/observed_mesh.hpp"
+#include "distributed/reference_steps.hpp"
+#include "distributed/shared_folder.hpp"
+#include "distributed/world.hpp"
+#include "support/meshes.hpp"
+#include "support/refinement.hpp"
+#include "support/tagged_meshes.hpp"
+#include "support/thrown.hpp"
+
+/// Refinement with Closure::regular.
+namespace octetra::distributed {
+namespace {
+
+constexpr StepOptions regular{.closure = Closure::regular};
+
+AdaptiveMesh mesh_in_parts(const Mesh& mesh, const std::string& partition) {
+    return AdaptiveMesh::distribute(
+        test::world(), mesh,
+        partition_cells(mesh, test::world().size(), parse_partition(partition)));
+}
+
+Selection cells_at_random(double share, std::uint64_t seed) {
+    return {.random = RandomShare{share, seed}};
+}
+
+class RegularMesh : public testing::TestWithParam<std::uint64_t> {
+protected:
+    const std::uint64_t seed = GetParam();
+    const Mesh input =
+        test::marked(seed % 2 == 0 ? test::kuhn(2, 2, 1) : test::perturbed_kuhn(2, 0.2, seed), 1);
+    AdaptiveMesh mesh = mesh_in_parts(input, seed % 3 == 0 ? "block" : "random:3");
+    std::mt19937_64 random{seed};
+
+    double random_share() {
+        constexpr std::array<double, 3> shares{0.02, 0.1, 0.4};
+        return shares[random() % 3];
+    }
+};
+
+TEST_P(RegularMesh, IsTheReferencesAfterRandomStepsOnEveryPartition) {
+    test::ReferenceSteps reference(input);
+    for (int k = 0; k < 7; ++k) {
+        const bool refines = k < 2 || random() % 4 != 0;
+        const Selection selection = cells_at_random(refines ? random_share() : 0.9, random());
+        const Adaptation step = refines ? mesh.refine(selection, regular) : mesh.coarsen(selection);
+        if (refines) {
+            reference.refine_regularly(selection);
+        } else {
+            reference.coarsen(selection, Closure::regular);
+        }
+        EXPECT_EQ(step.vertex_count(), mesh.points().size());
+        const Mesh found = mesh.collect();
+        if (!test::world().is_first()) continue;
+        ASSERT_TRUE(found == reference.mesh()) << "step " << k;
+        for (std::size_t v = 0; v < mesh.points().size(); ++v) {
+            const auto number = static_cast<std::size_t>(mesh.vertex_numbers()[v]);
+            ASSERT_TRUE(found.points.at(number) == mesh.points()[v]);
+        }
+    }
+}
+
+/// Linear functions are exact, and so is the mass of a piecewise constant one.
+TEST_P(RegularMesh, TransfersValues) {
+    const auto volume_of = [&](std::size_t c) {
+        Corners corners;
+        for (std::size_t k = 0; k < 4; ++k) {
+            corners[k] = mesh.points()[mesh.cells()[c][k].value()];
+        }
+        return volume(corners);
+    };
+    for (int k = 0; k < 5; ++k) {
+        std::vector<double> x;
+        for (const Point& p : mesh.points()) x.insert(x.end(), {p.x, p.y, p.z});
+        std::vector<double> mass;
+        std::vector<double> density;
+        for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+            density.push_back(1 + static_cast<double>(c % 5));
+            mass.push_back(density.back() * volume_of(c));
+        }
+        const Adaptation step = mesh.refine(cells_at_random(random_share(), random()), regular);
+        x = step.transfer_vertices(std::move(x), 3);
+        ASSERT_EQ(x.size(), 3 * mesh.points().size());
+        for (std::size_t v = 0; v < mesh.points().size(); ++v) {
+            EXPECT_EQ((Point{x[3 * v], x[3 * v + 1], x[3 * v + 2]}), mesh.points()[v]);
+        }
+        mass = step.transfer_cells(std::move(mass), 1, CellValues::divided);
+        density = step.transfer_cells(std::move(density));
+        ASSERT_EQ(mass.size(), mesh.cells().size());
+        for (std::size_t c = 0; c < mass.size(); ++c) {
+            EXPECT_NEAR(mass[c], density[c] * volume_of(c), 1e-12);
+        }
+        EXPECT_EQ(step.facets.parents().size(), mesh.facets().size());
+        EXPECT_EQ(step.edges.parents().size(), mesh.edges().size());
+    }
+}
+
+TEST_P(RegularMesh, ContinuesAfterMigrationAsWithoutIt) {
+    AdaptiveMesh still = mesh_in_parts(input, "block");
+    for (int k = 0; k < 4; ++k) {
+        const Selection selection = cells_at_random(random_share(), random());
+        (void)mesh.refine(selection, regular);
+        (void)still.refine(selection, regular);
+        std::vector<int> ranks;
+        for (const std::uint64_t root : mesh.roots()) {
+            ranks.push_back(static_cast<int>((root * 7 + seed + static_cast<std::uint64_t>(k)) %
+                                             static_cast<std::uint64_t>(test::world().size())));
+        }
+        (void)mesh.migrate(ranks);
+        const Mesh moved = mesh.collect();
+        EXPECT_TRUE(moved == still.collect());
+    }
+}
+
+TEST_P(RegularMesh, ContinuesFromACheckpointAsWithoutIt) {
+    const test::SharedFolder folder;
+    mesh = mesh_in_parts(test::tagged(test::perturbed_kuhn(2, 0.2, seed)), "random:3");
+    const auto path = folder / "state.octetra";
+    for (int k = 0; k < 3; ++k) {
+        const Selection selection = cells_at_random(random_share(), random());
+        (void)mesh.refine(selection, regular);
+        mesh.save(path);
+        AdaptiveMesh loaded = AdaptiveMesh::load(test::world(), path);
+        EXPECT_TRUE(loaded.collect() == mesh.collect());
+        const Selection next = cells_at_random(random_share(), random());
+        EXPECT_EQ(loaded.refine(next, regular).changed, mesh.refine(next, regular).changed);
+        EXPECT_TRUE(loaded.collect() == mesh.collect());
+        EXPECT_EQ(loaded.coarsen(next).changed, mesh.coarsen(next).changed);
+        EXPECT_TRUE(loaded.collect() == mesh.collect());
+        EXPECT_THROW((void)loaded.refine({.all = true}, StepOptions{}), InputError);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RegularMesh, testing::Range<std::uint64_t>(0, 6));
+
+TEST(RegularMesh, RefusesOtherSchemesAndAnotherClosureByName) {
+    AdaptiveMesh mesh = mesh_in_parts(test::kuhn(1, 1, 1), "block");
+    EXPECT_EQ(test::thrown_by<InputError>([&] {
+                  (void)mesh.refine(cells_at_random(0.5, 1),
+                                    {.scheme = Scheme::four, .closure = Closure::regular});
+              }),
+              "the regular closure requires the scheme 8t");
+    (void)mesh.refine({.all = true}, regular);
+    const test::ObservedMesh before(mesh);
+    EXPECT_EQ(test::thrown_by<InputError>([&] { (void)mesh.refine({.all = true}, StepOptions{}); }),
+              "the mesh was refined with the regular closure; it cannot be refined with the "
+              "longest-edge closure");
+    EXPECT_EQ(test::thrown_by<InputError>([&] {
+                  (void)mesh.refine({.all = true}, {.closure = Closure::regular, .max_cells = 100});
+              }),
+              "the step would make more than the 100 cells allowed: mark fewer cells, or allow "
+              "more");
+    EXPECT_TRUE(before == test::ObservedMesh(mesh));
+}
+
+TEST(RegularMesh, OfTheInputCanBeRefinedWithAnyClosure) {
+    AdaptiveMesh mesh = mesh_in_parts(test::kuhn(1, 1, 1), "block");
+    (void)mesh.refine({.all = true}, regular);
+    (void)mesh.coarsen(Selection{.all = true});
+    EXPECT_TRUE(mesh.refine({.all = true}, StepOptions{}).changed);
+}
+
+}  // namespace
+}  // namespace octetra::distributed

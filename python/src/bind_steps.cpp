@@ -26,8 +26,17 @@ Marks marked(const Mesh& mesh, const py::object& marks, const py::object& cells)
     return marks_of_list(cells, mesh.cell_count());
 }
 
-od::StepOptions step_options(const py::object& given, const py::object& max_cells) {
+Closure closure_of(const py::object& given) {
+    const std::string closure = string_from("closure", given);
+    if (closure == "regular") return Closure::regular;
+    if (closure == "longest-edge") return Closure::longest_edge;
+    throw InputError(fmt::format("closure must be 'longest-edge' or 'regular', not '{}'", closure));
+}
+
+od::StepOptions step_options(const py::object& given, const py::object& closure,
+                             const py::object& max_cells) {
     od::StepOptions options;
+    options.closure = closure_of(closure);
     const std::string scheme = string_from("scheme", given);
     if (scheme == "4t") {
         options.scheme = Scheme::four;
@@ -49,9 +58,9 @@ Adaptation refine(Mesh& mesh, const Arguments& arguments) {
     od::StepOptions options;
     return mesh.change_when_asked(
         [&] {
-            const auto [marks, cells, scheme, max_cells] = arguments.values<4>();
+            const auto [marks, cells, scheme, closure, max_cells] = arguments.values<5>();
             which = marked(mesh, marks, cells);
-            options = step_options(scheme, max_cells);
+            options = step_options(scheme, closure, max_cells);
         },
         [&](od::AdaptiveMesh& now, const auto& convert) {
             return shared(now.refine([&] {
@@ -68,7 +77,7 @@ Adaptation refine_edges(Mesh& mesh, const Arguments& arguments) {
         [&] {
             const auto [given, scheme, max_cells] = arguments.values<3>();
             edges = values_of<EdgeVertices>("edges", given);
-            options = step_options(scheme, max_cells);
+            options = step_options(scheme, py::str("longest-edge"), max_cells);
         },
         [&](od::AdaptiveMesh& now) { return shared(now.refine_edges(edges, options)); });
 }
@@ -134,10 +143,10 @@ std::tuple<Moved, Adaptation> refine_evenly(Mesh& mesh, const Arguments& argumen
     od::BalanceOptions balance;
     return mesh.change(
         [&] {
-            const auto [marks, cells, most_over_mean, may_forget_history, scheme, max_cells] =
-                arguments.values<6>();
+            const auto [marks, cells, most_over_mean, may_forget_history, scheme, closure,
+                        max_cells] = arguments.values<7>();
             which = marked(mesh, marks, cells);
-            options = step_options(scheme, max_cells);
+            options = step_options(scheme, closure, max_cells);
             balance = balance_options(most_over_mean, may_forget_history);
         },
         [&](od::AdaptiveMesh& now) {
@@ -151,12 +160,16 @@ std::tuple<Moved, Adaptation> refine_evenly(Mesh& mesh, const Arguments& argumen
 }  // namespace
 
 void bind_steps(py::module_&, MeshClass& mesh) {
-    def_method(mesh, "refine", "marks=None, *, cells=None, scheme='8t', max_cells=None", &refine,
+    def_method(mesh, "refine",
+               "marks=None, *, cells=None, scheme='8t', closure='longest-edge', max_cells=None",
+               &refine,
                "Collective. Refines the marked cells, and those that closure adds, by one step of "
                "8T-LE refinement. Returns an Adaptation.\n\n"
                "marks: (cells,), booleans, or integers that are 0 or one other value, which means "
                "true; None marks no cell of this rank. cells: instead of marks, the numbers of "
-               "marked cells of this rank, in any order. scheme: '8t', '4t' or '2t'. max_cells: a "
+               "marked cells of this rank, in any order. scheme: '8t', '4t' or '2t'. closure: "
+               "'longest-edge', or 'regular', which bounds the angles of all later refinements: it "
+               "requires scheme '8t', and a mesh is refined with one closure only. max_cells: a "
                "step after which the whole mesh would have more cells is refused; None means no "
                "limit.");
     def_method(mesh, "refine_edges", "edges, *, scheme='8t', max_cells=None", &refine_edges,
@@ -166,7 +179,7 @@ void bind_steps(py::module_&, MeshClass& mesh) {
                "have it passes it. scheme, max_cells: as for refine().");
     def_method(mesh, "refine_evenly",
                "marks=None, *, cells=None, most_over_mean=1.1, may_forget_history=False, "
-               "scheme='8t', max_cells=None",
+               "scheme='8t', closure='longest-edge', max_cells=None",
                &refine_evenly,
                "Collective. Moves cells between ranks such that all ranks have nearly the same "
                "number of cells after the step, and then refines as refine() does. Returns the "

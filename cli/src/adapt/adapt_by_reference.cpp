@@ -64,7 +64,10 @@ public:
     [[nodiscard]] bool is_changed() const { return is_changed_; }
 
     /// Returns the number of levels that changed the mesh.
-    int refine(const Selection& selection, Scheme scheme, int levels) {
+    int refine(const RefineStep& step, int levels) {
+        if (step.closure == Closure::regular) return refine_regularly(step.selection, levels);
+        const Selection& selection = step.selection;
+        const Scheme scheme = step.scheme;
         // A list of cells refers to the mesh before the first level, and to their descendants
         // later.
         Refinement since = as_input(mesh());
@@ -80,6 +83,19 @@ public:
         });
     }
 
+    int refine_regularly(const Selection& selection, int levels) {
+        if (!selection.cells.empty() && levels > 1) {
+            throw InputError(
+                "--engine reference does not support --cells with several levels of the regular "
+                "closure");
+        }
+        closure_ = Closure::regular;
+        return repeat(levels, [&] {
+            const CellMarks marks = reference::marked_cells(as_input(mesh()), selection);
+            return take(reference::refined_regularly(history_, marks));
+        });
+    }
+
     /// As above, for coarsening. Sets `is_any` to whether the last level marked any cell.
     int coarsen(const Selection& selection, bool outside, int levels, bool& is_any) {
         return repeat(levels, [&] {
@@ -88,7 +104,7 @@ public:
                 for (char& mark : marks) mark = mark == 0 ? 1 : 0;
             }
             is_any = is_any_marked(marks);
-            return take(reference::coarsened(history_, marks));
+            return take(reference::coarsened(history_, marks, closure_));
         });
     }
 
@@ -131,6 +147,7 @@ private:
     History history_;
     Refinement refined_;  ///< the mesh, with the maps from its input
     std::uint64_t max_cells_;
+    Closure closure_ = Closure::longest_edge;
     bool is_changed_ = false;
 };
 
@@ -142,7 +159,7 @@ public:
     StepDone operator()(RefineStep step) const {
         complete(step.selection, step.typed.selection);
         const int levels = step.typed.levels;
-        const int done = adapted_->refine(step.selection, step.scheme, levels);
+        const int done = adapted_->refine(step, levels);
         return {levels_done("refined", done), idle_levels(done, levels, idle_refinement_reason)};
     }
     StepDone operator()(CoarsenStep step) const {

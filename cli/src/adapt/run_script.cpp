@@ -80,6 +80,7 @@ public:
         const int levels = step.typed.levels;
         distributed::StepOptions options = run_->options;
         options.scheme = step.scheme;
+        options.closure = step.closure;
         options.is_last = is_last_ && levels == 1;
         const int done = refine(*mesh_, step, options, balance_, followers(levels));
         return {levels_done("refined", done), idle_levels(done, levels, idle_refinement_reason)};

@@ -3,6 +3,7 @@
 #include <string>
 #include <variant>
 
+#include <octetra/core/closure.hpp>
 #include <octetra/core/selection.hpp>
 
 #include "commands/coarsening_options.hpp"
@@ -15,6 +16,7 @@ struct RefineStep {
     RefinementOptions typed;
     Selection selection;  ///< without the cell list, which needs the mesh at that step
     Scheme scheme = Scheme::eight;
+    Closure closure = Closure::longest_edge;
 };
 
 struct CoarsenStep {

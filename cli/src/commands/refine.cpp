@@ -47,6 +47,7 @@ namespace {
 Plan plan_of(const RefineOptions& options) {
     return {.selection = parse_selection(options.refinement.selection),
             .scheme = parse_scheme(options.refinement),
+            .closure = parse_closure(options.refinement),
             .engine = parse_engine(options.engine, options.parallel),
             .partition = partition_of(options.parallel),
             .synchronisation = synchronisation_of(options.parallel),
@@ -131,7 +132,11 @@ bool refine_by_reference(Plan plan, const RefineOptions& options,
         const distributed::Phase phase(world, "refine");
         const int levels = options.refinement.levels;
         fine = with_mesh_name(options, [&] {
-            return reference::refine(mesh, plan.selection, plan.scheme, levels, options.max_cells);
+            return plan.closure == Closure::regular
+                       ? reference::refine_regularly(mesh, plan.selection, levels,
+                                                     options.max_cells)
+                       : reference::refine(mesh, plan.selection, plan.scheme, levels,
+                                           options.max_cells);
         });
         const bool idle = fine.mesh.cells.size() == mesh.cells.size();
         report_refined(
@@ -254,7 +259,8 @@ void check_outputs(const RefineOptions& options, const Plan& plan, int ranks) {
         {mesh_to_write("-o", options.output, ranks), beside[0], beside[1], beside[2]});
 }
 
-/// Refines a mesh with history or fields, or writes a history: runs as a step of octetra adapt.
+/// Refines a mesh with history or fields or with the regular closure, or writes a history: runs as
+/// a step of octetra adapt.
 void refine_with_history(const RefineOptions& options, const Plan& plan,
                          const distributed::Communicator& all) {
     if (plan.engine == Engine::reference) {
@@ -265,7 +271,9 @@ void refine_with_history(const RefineOptions& options, const Plan& plan,
             has_fields ? "fields" : "history", has_fields ? "--fields" : ".octetra files"));
     }
     const Script one_step{
-        {}, false, {{0, "refine", RefineStep{options.refinement, plan.selection, plan.scheme}}}};
+        {},
+        false,
+        {{0, "refine", RefineStep{options.refinement, plan.selection, plan.scheme, plan.closure}}}};
     adapt({.input = options.input,
            .output = options.output,
            .parallel = options.parallel,
@@ -281,7 +289,8 @@ void refine_with_history(const RefineOptions& options, const Plan& plan,
 
 void refine(const RefineOptions& options, const distributed::Communicator& all) {
     Plan plan = plan_of(options);
-    if (is_checkpoint(options.input.path) || is_checkpoint(options.output) ||
+    const bool is_regular = plan.closure == Closure::regular && plan.engine == Engine::distributed;
+    if (is_regular || is_checkpoint(options.input.path) || is_checkpoint(options.output) ||
         !options.input.fields.empty()) {
         return refine_with_history(options, plan, all);
     }

@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <octetra/core/error.hpp>
+
 #include "choice.hpp"
 #include "commands/number_options.hpp"
 
@@ -20,6 +22,11 @@ void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
         .add_option("--scheme", options.scheme,
                     "edges that a cell marks: all, the longest of each face, or its longest [8t]")
         ->type_name("8t|4t|2t");
+    subcommand
+        .add_option("--closure", options.closure,
+                    "longest-edge: a face with a marked edge has its longest edge marked; regular: "
+                    "also bounds the angles of all later refinements [longest-edge]")
+        ->type_name("longest-edge|regular");
 }
 
 bool was_given(const CLI::App& subcommand, std::string_view name) {
@@ -33,13 +40,23 @@ bool was_given(const CLI::App& subcommand, std::string_view name) {
 
 bool has_refinement_options(const CLI::App& subcommand) {
     return was_given(subcommand, "levels") || was_given(subcommand, "scheme") ||
-           was_given(subcommand, "seed");
+           was_given(subcommand, "closure") || was_given(subcommand, "seed");
 }
 
 Scheme parse_scheme(const RefinementOptions& options) {
     constexpr std::array<Word<Scheme>, 3> schemes{
         {{"8t", Scheme::eight}, {"4t", Scheme::four}, {"2t", Scheme::two}}};
     return parse_choice("--scheme", options.scheme, schemes);
+}
+
+Closure parse_closure(const RefinementOptions& options) {
+    constexpr std::array<Word<Closure>, 2> closures{
+        {{"longest-edge", Closure::longest_edge}, {"regular", Closure::regular}}};
+    const Closure closure = parse_choice("--closure", options.closure, closures);
+    if (closure == Closure::regular && parse_scheme(options) != Scheme::eight) {
+        throw InputError("--closure regular requires --scheme 8t");
+    }
+    return closure;
 }
 
 }  // namespace octetra::cli

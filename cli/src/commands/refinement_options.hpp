@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include <octetra/core/closure.hpp>
 #include <octetra/core/selection.hpp>
 
 #include "commands/selection_options.hpp"
@@ -13,21 +14,25 @@ namespace octetra::cli {
 struct RefinementOptions {
     SelectionOptions selection;
     std::string scheme = "8t";
+    std::string closure = "longest-edge";
     int levels = 1;
 };
 
-/// Declares the selection under the heading `group`, --levels and --scheme.
+/// Declares the selection under the heading `group`, --levels, --scheme and --closure.
 void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
                             const std::string& group);
 
 /// Returns whether the option with this name, without dashes, was given.
 [[nodiscard]] bool was_given(const CLI::App& subcommand, std::string_view name);
 
-/// Returns whether --levels, --scheme or --seed was given, even with the default value. They have
+/// Returns whether --levels, --scheme, --closure or --seed was given, even with the default value. They have
 /// no meaning without a criterion.
 [[nodiscard]] bool has_refinement_options(const CLI::App& subcommand);
 
 /// Throws InputError for an unknown scheme.
 [[nodiscard]] Scheme parse_scheme(const RefinementOptions& options);
+
+/// Throws InputError for an unknown closure, or one that the scheme excludes.
+[[nodiscard]] Closure parse_closure(const RefinementOptions& options);
 
 }  // namespace octetra::cli

@@ -18,6 +18,9 @@ void print_history(const CheckpointFacts& facts) {
         print("  {:<10}{:>17}{:>17}{:>17}{:>15}\n", t + 1, grouped(step.cells_before),
               grouped(step.cells_cut), grouped(after), grouped(step.bytes));
     }
+    if (facts.closure == Closure::regular) {
+        print("closure: regular; a step is a generation of cells\n");
+    }
     for (const FieldFacts& field : facts.fields) {
         print(
             "field '{}': {} on {}\n", field.name,

@@ -72,6 +72,7 @@ Step parse_refine(std::vector<std::string> options) {
     parse_words(command, std::move(options));
     step.selection = parse_selection(step.typed.selection);
     step.scheme = parse_scheme(step.typed);
+    step.closure = parse_closure(step.typed);
     return step;
 }
 

@@ -21,6 +21,7 @@ namespace octetra::cli {
 struct Plan {
     Selection selection;
     Scheme scheme = Scheme::eight;
+    Closure closure = Closure::longest_edge;
     Engine engine = Engine::distributed;
     distributed::Partition partition;
     distributed::Synchronisation synchronisation = distributed::Synchronisation::neighbour;

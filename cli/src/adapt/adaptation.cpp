@@ -24,6 +24,7 @@
 #include "adapt/maps_since.hpp"
 #include "adapt/predicted_by_steps.hpp"
 #include "adapt/run_script.hpp"
+#include "adapt/step_texts.hpp"
 #include "adapt/transfer_fields.hpp"
 #include "adapt/write_result.hpp"
 #include "commands/input_check.hpp"
@@ -149,8 +150,12 @@ bool is_valid(const distributed::AdaptiveMesh& mesh, JudgedMesh coarse,
     }
     Judgement judgement{.fine = options.output, .is_coarse_checked = options.check};
     if (options.claim == Claim::refines_mesh) {
-        judgement.request =
-            request_of(std::get<RefineStep>(script.steps.front().step), read, world);
+        const auto& step = std::get<RefineStep>(script.steps.front().step);
+        if (step.closure == Closure::longest_edge) {
+            judgement.request = request_of(step, read, world);
+        } else if (world.is_first()) {
+            note(std::string(regular_closure_is_unchecked));
+        }
     }
     RefinementMaps maps;
     if (since != nullptr) {

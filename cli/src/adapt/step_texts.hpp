@@ -23,6 +23,11 @@ struct StepDone {
 /// Returns the message of an error in a level of a step that is not the first of a script.
 [[nodiscard]] std::string with_level(std::string_view what, int level, int levels);
 
+/// The limit of verification after refinement with the regular closure.
+inline constexpr std::string_view regular_closure_is_unchecked =
+    "the verifier does not check the rules of the regular closure, only that the mesh is "
+    "conforming and refines the input by bisections at midpoints";
+
 /// Returns the reason why fewer levels than requested changed the mesh; nothing if all did.
 [[nodiscard]] std::vector<std::string> idle_levels(int done, int levels, std::string_view reason);
 

@@ -6,6 +6,7 @@
 
 #include <octetra/verify/verify.hpp>
 
+#include "adapt/step_texts.hpp"
 #include "commands/refine/maps_of_all.hpp"
 #include "terminal.hpp"
 #include "verdict/print_verdict.hpp"
@@ -16,9 +17,13 @@ namespace {
 verify::VerifyOptions verify_options(const Plan& plan, const RefineOptions& options,
                                      const RefinementMaps* maps) {
     constexpr std::size_t described_of_each_code = 100;
-    return {.request = verify::Request{plan.selection, plan.scheme, options.refinement.levels},
-            .maps = maps,
-            .kept_per_code = described_of_each_code};
+    verify::VerifyOptions verified{.maps = maps, .kept_per_code = described_of_each_code};
+    if (plan.closure == Closure::regular) {
+        note(std::string(regular_closure_is_unchecked));
+    } else {
+        verified.request = {plan.selection, plan.scheme, options.refinement.levels};
+    }
+    return verified;
 }
 
 void note_unchecked(const RefineOptions& options) {

@@ -30,7 +30,6 @@ Adaptation unchanged(const DistributedMesh& mesh) {
 
 RefineOptions level_options(const StepOptions& options) {
     return {.scheme = options.scheme,
-            .closure = options.closure,
             .levels = 1,
             .synchronisation = options.synchronisation,
             .max_cells = options.max_cells,

@@ -16,6 +16,10 @@ std::string_view word_of(Scheme scheme) {
     return words[static_cast<std::size_t>(scheme)];
 }
 
+std::string_view word_of(Closure closure) {
+    return closure == Closure::regular ? "regular" : "longest-edge";
+}
+
 std::string_view word_of(Synchronisation synchronisation) {
     return synchronisation == Synchronisation::gateway ? "gateway" : "neighbour";
 }
@@ -37,6 +41,7 @@ void check_same(const Communicator& processes, const StepOptions& options) {
     if (options == first) return;
     const Check check{processes.rank()};
     check("scheme", word_of(options.scheme), word_of(first.scheme));
+    check("closure", word_of(options.closure), word_of(first.closure));
     check("synchronisation", word_of(options.synchronisation), word_of(first.synchronisation));
     check("max_cells", options.max_cells, first.max_cells);
     check("is_last", options.is_last, first.is_last);
@@ -47,12 +52,9 @@ void check_closure(const DistributedMesh& mesh, const StepOptions& options) {
         throw InputError("the regular closure requires the scheme 8t");
     }
     if (mesh.level_begin.empty() || mesh.closure == options.closure) return;
-    const auto name = [](Closure closure) {
-        return closure == Closure::regular ? "regular" : "longest-edge";
-    };
     throw InputError(fmt::format(
         "the mesh was refined with the {} closure; it cannot be refined with the {} closure",
-        name(mesh.closure), name(options.closure)));
+        word_of(mesh.closure), word_of(options.closure)));
 }
 
 void check_same(const Communicator& processes, const BalanceOptions& options) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include <octetra/core/closure.hpp>
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/files/series.hpp>
@@ -36,7 +37,8 @@ namespace octetra::distributed {
 /// Options of a step, the same on all processes.
 struct StepOptions {
     Scheme scheme = Scheme::eight;  ///< the edges that a marked cell marks
-    /// Closure::regular requires Scheme::eight and a mesh that was refined with no other closure.
+    /// Closure::regular requires Scheme::eight, and a mesh that was refined with no other closure;
+    /// it bounds the shapes of all cells of later steps. Vertices then do not keep their numbers.
     Closure closure = Closure::longest_edge;
     /// Does not affect the result.
     Synchronisation synchronisation = Synchronisation::neighbour;
@@ -89,7 +91,8 @@ struct DetachedArrays {
 ///
 /// Numbers are local to the process, with 32 bits, unless stated otherwise; those of type
 /// GlobalVertex, and counts, refer to the whole mesh. Refinement preserves the local and the global
-/// number of a vertex; coarsening may change both, and migration the local one. Cells and tagged
+/// number of a vertex, unless its closure is Closure::regular; coarsening may change both, and
+/// migration the local one. Cells and tagged
 /// facets and edges may be renumbered by each step, as its Adaptation describes. The order of a
 /// process's cells differs from the canonical order of files, which does not depend on the number
 /// of processes.

@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include <octetra/core/closure.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/balance.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
@@ -22,8 +21,6 @@ enum class Synchronisation {
 
 struct RefineOptions {
     Scheme scheme = Scheme::eight;  ///< the edges that a marked cell marks
-    /// Closure::regular requires Scheme::eight and a mesh that was refined with no other closure.
-    Closure closure = Closure::longest_edge;
     int levels = 1;                 ///< number of levels
     /// Does not affect the result.
     Synchronisation synchronisation = Synchronisation::neighbour;

@@ -59,7 +59,7 @@ Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
     std::optional<NumberedLevel> numbered;
     mesh.processes.transaction([&] {
         check_same(mesh.processes, options);
-        check_closure(mesh, options);
+        check_closure(*this, options);
         note_cells_before_level();
         PlannedLevel plan = plan_level(mesh, mark, level_options(options), tuning, level);
         if (plan.changes_anything()) numbered.emplace(*this, std::move(plan));

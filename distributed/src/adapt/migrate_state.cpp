@@ -186,7 +186,10 @@ Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& opti
         }
         order.emplace(state.mesh);
         const auto weigh = [&] { return cells_of_roots(state.mesh); };
-        const auto ranks = even_parts_or_roots(state.mesh, weigh, options, roots, &state.numbers);
+        BalanceOptions balance = options;
+        balance.may_forget_history =
+            balance.may_forget_history && state.mesh.closure != Closure::regular;
+        const auto ranks = even_parts_or_roots(state.mesh, weigh, balance, roots, &state.numbers);
         if (!ranks) return {nullptr, unmoved(state.mesh)};
         const Phase phase(processes, "migrate");
         state.forgotten.reserve(state.forgotten.size() + 1);

@@ -29,6 +29,7 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
     std::optional<NumberedLevel> numbered;  // of the moved state, if there is one
     processes.transaction([&] {
         check_same(processes, options);
+        check_closure(state, options);
         check_same(processes, balance);
         const RefineOptions level_of = level_options(options);
         state.note_cells_before_level();
@@ -52,6 +53,7 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
     EvenStep done{std::move(moved.migration), numbered->commit()};
     numbered.reset();
     state.accumulated_idle = accumulated_idle;
+    state.mesh.closure = options.closure;
     if (!uneven) return done;
     std::unique_ptr<CellsAsRoots> roots = std::move(uneven->roots);
     uneven->keep_mesh();

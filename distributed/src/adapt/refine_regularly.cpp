@@ -59,7 +59,7 @@ Adaptation refine_state_regularly(AdaptiveMesh::State& state,
     Adaptation adaptation;
     mesh.processes.transaction([&] {
         check_same(mesh.processes, options);
-        check_closure(mesh, options);
+        check_closure(state, options);
         MarkedCells marked = listed(mark(), mesh.cells.size());
         if (!marked.edges.empty()) {
             throw InputError("edges cannot be marked with the regular closure, only cells");
@@ -87,11 +87,8 @@ EvenStep refine_state_evenly_and_regularly(AdaptiveMesh::State& state,
     std::vector<std::uint8_t> marks;
     state.mesh.processes.transaction([&] {
         check_same(state.mesh.processes, options);
-        check_closure(state.mesh, options);
+        check_closure(state, options);
         check_same(state.mesh.processes, balance);
-        if (balance.may_forget_history) {
-            throw InputError("the regular closure needs the whole history: may_forget_history");
-        }
         const MarkedCells marked = listed(mark(), state.mesh.cells.size());
         marks.resize(state.mesh.cells.size(), 0);
         for (const CellIndex c : marked.cells) marks[c.value()] = 1;

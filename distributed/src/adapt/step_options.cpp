@@ -8,6 +8,8 @@
 
 #include <octetra/core/error.hpp>
 
+#include "adapt/mesh_state.hpp"
+
 namespace octetra::distributed {
 namespace {
 
@@ -47,14 +49,15 @@ void check_same(const Communicator& processes, const StepOptions& options) {
     check("is_last", options.is_last, first.is_last);
 }
 
-void check_closure(const DistributedMesh& mesh, const StepOptions& options) {
+void check_closure(const AdaptiveMesh::State& state, const StepOptions& options) {
     if (options.closure == Closure::regular && options.scheme != Scheme::eight) {
         throw InputError("the regular closure requires the scheme 8t");
     }
-    if (mesh.level_begin.empty() || mesh.closure == options.closure) return;
+    const bool has_steps = !state.mesh.level_begin.empty() || !state.forgotten.empty();
+    if (!has_steps || state.mesh.closure == options.closure) return;
     throw InputError(fmt::format(
         "the mesh was refined with the {} closure; it cannot be refined with the {} closure",
-        word_of(mesh.closure), word_of(options.closure)));
+        word_of(state.mesh.closure), word_of(options.closure)));
 }
 
 void check_same(const Communicator& processes, const BalanceOptions& options) {

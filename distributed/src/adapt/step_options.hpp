@@ -11,6 +11,6 @@ void check_same(const Communicator& processes, const BalanceOptions& options);
 
 /// Throws InputError if the mesh was refined with another closure, or if the closure cannot be
 /// combined with the scheme. The options must be the same on all processes.
-void check_closure(const DistributedMesh& mesh, const StepOptions& options);
+void check_closure(const AdaptiveMesh::State& state, const StepOptions& options);
 
 }  // namespace octetra::distributed

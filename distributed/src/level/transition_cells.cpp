@@ -35,9 +35,10 @@ EdgeMask longest_of(EdgeMask edges, const CellVertices& cell,
 
 }  // namespace
 
-std::uint32_t TransitionCells::generation_of(const CellVertices& cell) const {
+std::uint32_t TransitionCells::generation_of(CellIndex cell) const {
     std::uint32_t generation = 0;
-    for (const VertexIndex v : cell) generation = std::max(generation, generations_[v]);
+    for (const VertexIndex v : mesh_->cells[cell])
+        generation = std::max(generation, generations_[v]);
     return generation;
 }
 
@@ -56,8 +57,15 @@ TransitionCells::Family TransitionCells::family_of(CellIndex cell) const {
 // vertices are corners of the parent, which are older.
 EdgeMask TransitionCells::edges_of_parent(CellIndex cell) const {
     const CellVertices& vertices = mesh_->cells[cell];
-    const std::uint32_t newest = generation_of(vertices);
+    const std::uint32_t newest = generation_of(cell);
     return edges_between(vertices, [&](VertexIndex v) { return generations_[v] < newest; });
+}
+
+EdgeMask TransitionCells::edges_of_generation(CellIndex cell, std::uint32_t generation) const {
+    const std::uint32_t own = generation_of(cell);
+    if (!contains(cell)) return generation == own ? all_edges : 0;
+    if (generation + 1 == own) return edges_of_parent(cell);
+    return generation == own ? static_cast<EdgeMask>(all_edges & ~edges_of_parent(cell)) : 0;
 }
 
 EdgeMask TransitionCells::closure(CellIndex cell, EdgeMask marked) const {

@@ -26,7 +26,7 @@ public:
 
     [[nodiscard]] bool contains(CellIndex cell) const { return kinds_[cell] != Kind::regular; }
     [[nodiscard]] std::uint32_t generation_of(VertexIndex v) const { return generations_[v]; }
-    [[nodiscard]] std::uint32_t generation_of(const CellVertices& cell) const;
+    [[nodiscard]] std::uint32_t generation_of(CellIndex cell) const;
 
     /// The cells begin .. end-1.
     struct Family {
@@ -38,6 +38,11 @@ public:
 
     /// Returns the edges of a transition cell that are edges of its parent; they are not bisected.
     [[nodiscard]] EdgeMask edges_of_parent(CellIndex cell) const;
+
+    /// Returns the edges of a cell of this generation. All edges of a regular cell have its own; an
+    /// edge of a transition cell has that of the parent, if it is an edge of the parent, or else
+    /// the cell's own.
+    [[nodiscard]] EdgeMask edges_of_generation(CellIndex cell, std::uint32_t generation) const;
 
     /// Returns the set of edges of a transition cell that has `marked` and the longest edge of the
     /// face, if any, that is a face of the parent and has a marked edge.

@@ -1,6 +1,7 @@
 #include "regular/regular_step.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -59,60 +60,87 @@ RegularStep unchanged(const DistributedMesh& mesh) {
             .counts = {}};
 }
 
-using Edges = std::vector<EdgeVertices>;  // lower end first; ascending
-
-/// Calls f for each edge of the mask.
-void for_each_edge(const CellVertices& cell, EdgeMask mask, auto&& f) {
-    for (std::size_t e = 0; e < 6; ++e) {
-        if ((unsigned{mask} >> e & 1U) == 0) continue;
-        const auto& [low, high] = std::minmax(cell[cell_edges[e][0]], cell[cell_edges[e][1]]);
-        f(EdgeVertices{low, high});
-    }
-}
-
-/// The marked edges that are not bisected yet, by generation.
+/// The marked edges that are not bisected yet: for each cell, those that the cell marks. Other
+/// cells with the edges need not have them.
 class PendingEdges {
 public:
-    explicit PendingEdges(const Communicator& processes) : processes_(processes) {}
+    PendingEdges(const Communicator& processes, std::size_t cell_count)
+        : processes_(processes), of_cell_(cell_count, 0), is_open_(cell_count, 0) {}
 
-    void add(std::uint32_t generation, Edges edges) {
-        if (edges.empty()) return;
-        if (lists_.size() <= generation) lists_.resize(generation + std::size_t{1});
-        Edges& list = lists_[generation];
-        list.insert(list.end(), edges.begin(), edges.end());
-        std::ranges::sort(list);
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+    void add(CellIndex cell, EdgeMask edges) {
+        of_cell_[cell] = static_cast<EdgeMask>(of_cell_[cell] | edges);
     }
-    [[nodiscard]] const Edges& of(std::uint32_t generation) const {
-        static const Edges none;
-        return generation < lists_.size() ? lists_[generation] : none;
+    /// Adds edges that are not closed yet.
+    void add_open(CellIndex cell, EdgeMask edges) {
+        if ((edges & ~unsigned{of_cell_[cell]}) == 0) return;
+        add(cell, edges);
+        is_open_[cell] = 1;
     }
-    void clear(std::uint32_t generation) {
-        if (generation < lists_.size()) lists_[generation].clear();
+    void set_closed(CellIndex cell) { is_open_[cell] = 0; }
+    [[nodiscard]] EdgeMask of(CellIndex cell) const { return of_cell_[cell]; }
+    [[nodiscard]] bool is_open(CellIndex cell) const { return is_open_[cell] != 0; }
+
+    /// Returns the cells that mark edges of a generation, each with these edges.
+    [[nodiscard]] MarkedCells of_generation(std::uint32_t generation, const TransitionCells& cells,
+                                            bool only_open) const {
+        MarkedCells marked;
+        for_each([&](CellIndex c) {
+            if (only_open && is_open_[c] == 0) return;
+            const EdgeMask edges = cells.edges_of_generation(c, generation) & of_cell_[c];
+            if (edges == 0) return;
+            marked.cells.push_back(c);
+            marked.edges.push_back(edges);
+        });
+        marked.count = marked.cells.size();
+        return marked;
     }
 
     /// Collective. Returns the greatest generation below `limit` of which any process has edges.
-    [[nodiscard]] std::optional<std::uint32_t> greatest_below(std::size_t limit) const {
-        std::size_t next = std::min(limit, lists_.size());
-        while (next > 0 && lists_[next - 1].empty()) --next;
-        const std::uint64_t greatest = processes_.max(next);
+    [[nodiscard]] std::optional<std::uint32_t> greatest_below(std::uint64_t limit,
+                                                              const TransitionCells& cells) const {
+        std::uint64_t end = 0;  // one more than the greatest generation
+        for_each([&](CellIndex c) {
+            for (const std::uint64_t g : generations(c, cells)) {
+                if (g < limit) end = std::max(end, g + 1);
+            }
+        });
+        const std::uint64_t greatest = processes_.max(end);
         if (greatest == 0) return std::nullopt;
         return static_cast<std::uint32_t>(greatest - 1);
     }
     /// Collective. Returns the least generation of which any process has edges.
-    [[nodiscard]] std::optional<std::uint32_t> least() const {
+    [[nodiscard]] std::optional<std::uint32_t> least(const TransitionCells& cells) const {
         constexpr std::uint64_t complement = std::numeric_limits<std::uint32_t>::max();
-        const auto first = std::ranges::find_if(lists_, [](auto& list) { return !list.empty(); });
-        const bool has_any = first != lists_.end();
-        const auto own = static_cast<std::uint64_t>(first - lists_.begin());
-        const std::uint64_t least = processes_.max(has_any ? complement - own : 0);
-        if (least == 0) return std::nullopt;
-        return static_cast<std::uint32_t>(complement - least);
+        std::uint64_t least = complement;
+        for_each([&](CellIndex c) {
+            for (const std::uint64_t g : generations(c, cells)) least = std::min(least, g);
+        });
+        const std::uint64_t greatest = processes_.max(complement - least);
+        if (greatest == 0) return std::nullopt;
+        return static_cast<std::uint32_t>(complement - greatest);
     }
 
 private:
+    /// Calls f for each cell with edges.
+    void for_each(auto&& f) const {
+        for (CellIndex c{0}; c < of_cell_.end_index(); ++c) {
+            if (of_cell_[c] != 0) f(c);
+        }
+    }
+    /// Returns the generations of a cell's edges.
+    [[nodiscard]] std::vector<std::uint32_t> generations(CellIndex c,
+                                                         const TransitionCells& cells) const {
+        std::vector<std::uint32_t> found;
+        const std::uint32_t newest = cells.generation_of(c);
+        for (std::uint32_t g = newest == 0 ? 0 : newest - 1; g <= newest; ++g) {
+            if ((cells.edges_of_generation(c, g) & of_cell_[c]) != 0) found.push_back(g);
+        }
+        return found;
+    }
+
     Communicator processes_;
-    std::vector<Edges> lists_;
+    IndexVector<CellIndex, EdgeMask> of_cell_;
+    IndexVector<CellIndex, std::uint8_t> is_open_;  ///< whether edges of the cell are not closed
 };
 
 class RegularRefinement {
@@ -122,7 +150,7 @@ public:
           options_(options),
           vertex_count_before_(mesh.points.size()),
           step_(unchanged(mesh)),
-          pending_(mesh.processes),
+          pending_(mesh.processes, mesh.cells.size()),
           cells_(transition_cells_of(step_.mesh)) {
         options_.max_cells = std::numeric_limits<std::uint64_t>::max();  // until the last level
     }
@@ -133,40 +161,32 @@ public:
     ~RegularRefinement() = default;
 
     void mark(const MarkedCells& marked) {
-        std::vector<Edges> edges;
-        const auto add = [&](std::uint32_t generation, CellIndex c, EdgeMask mask) {
-            if (edges.size() <= generation) edges.resize(generation + std::size_t{1});
-            for_each_edge(mesh().cells[c], mask,
-                          [&](const EdgeVertices& edge) { edges[generation].push_back(edge); });
-        };
         for (const CellIndex c : marked.cells) {
-            const std::uint32_t generation = cells_.generation_of(mesh().cells[c]);
             if (!cells_.contains(c)) {
-                add(generation, c, all_edges);
+                pending_.add_open(c, all_edges);
                 continue;
             }
             const auto family = cells_.family_of(c);
-            for (CellIndex sibling = family.begin; sibling < family.end; ++sibling) {
-                add(generation - 1, sibling, cells_.edges_of_parent(sibling));
-            }
-            if (is_one_of_eight(c, family, generation - 1)) add(generation, c, all_edges);
+            complete(family);
+            const std::uint32_t of_parent = cells_.generation_of(c) - 1;
+            if (is_one_of_eight(c, family, of_parent)) pending_.add_open(c, all_edges);
         }
-        for (std::uint32_t g = 0; g < edges.size(); ++g) pending_.add(g, std::move(edges[g]));
     }
 
     /// Collective.
     void run(std::uint64_t max_cells) {
-        auto generation = pending_.greatest_below(std::numeric_limits<std::size_t>::max());
+        constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+        auto generation = pending_.greatest_below(no_limit, cells_);
         while (generation) {
-            PlannedLevel plan = close(*generation);
-            const auto lower = pending_.greatest_below(*generation);
+            close(*generation);
+            const auto lower = pending_.greatest_below(*generation, cells_);
             if (lower) {
                 generation = lower;
                 continue;
             }
-            bisect(std::move(plan), *generation);
+            bisect(*generation);
             check_allowed(max_cells);
-            generation = pending_.least();
+            generation = pending_.least(cells_);
         }
     }
 
@@ -202,75 +222,104 @@ private:
         });
     }
 
-    /// Returns the cells with an edge of the list, each with its edges in the list.
-    [[nodiscard]] MarkedCells cells_with(const Edges& edges) {
-        MarkedCells marked;
-        IndexVector<VertexIndex, std::uint8_t> is_end;
-        is_end.assign(mesh().points.size(), 0);
-        for (const auto& [a, b] : edges) is_end[a] = is_end[b] = 1;
-        for (CellIndex c{0}; !edges.empty() && c < mesh().cells.end_index(); ++c) {
-            const auto& [p, q, r, s] = mesh().cells[c];
-            if (is_end[p] + is_end[q] + is_end[r] + is_end[s] < 2) continue;
-            unsigned mask = 0;
-            std::size_t e = 0;
-            for_each_edge(mesh().cells[c], all_edges, [&](const EdgeVertices& edge) {
-                if (std::ranges::binary_search(edges, edge)) mask |= 1U << e;
-                ++e;
-            });
-            if (mask == 0) continue;
-            marked.cells.push_back(c);
-            marked.edges.push_back(static_cast<EdgeMask>(mask));
+    /// Marks the edges of a family's parent that are not bisected.
+    void complete(TransitionCells::Family family) {
+        for (CellIndex sibling = family.begin; sibling < family.end; ++sibling) {
+            pending_.add_open(sibling, cells_.edges_of_parent(sibling));
         }
-        marked.count = marked.cells.size();
-        return marked;
     }
 
     /// Collective. Closes the marked edges of a generation, and marks the edges of parents that
-    /// must be completed.
-    PlannedLevel close(std::uint32_t generation) {
-        const auto mark_cells = [&] { return cells_with(pending_.of(generation)); };
-        PlannedLevel plan = close_level(mesh(), mark_cells, options_, Tuning{}, &cells_);
+    /// must be completed. Edges that were closed before require no others: the closure of a set is
+    /// the union of the closures of its edges.
+    void close(std::uint32_t generation) {
+        const auto open_cells = [&] {
+            MarkedCells marked = pending_.of_generation(generation, cells_, true);
+            for (const CellIndex c : marked.cells) pending_.set_closed(c);
+            return marked;
+        };
+        PlannedLevel plan = close_level(mesh(), open_cells, options_, Tuning{}, &cells_);
+        if (!plan.changes_anything()) return;
         step_.counts += plan.counts;
-        closed_ = plan.level->closed_marks();
-        Edges edges;
-        Edges of_parents;
-        for (std::size_t k = 0; k < closed_.cells.size(); ++k) {
-            const CellIndex c = closed_.cells[k];
-            for_each_edge(mesh().cells[c], closed_.edges[k],
-                          [&](const EdgeVertices& edge) { edges.push_back(edge); });
+        const MarkedCells closed = plan.level->closed_marks();
+        for (std::size_t k = 0; k < closed.cells.size(); ++k) {
+            const CellIndex c = closed.cells[k];
+            pending_.add(c, closed.edges[k]);
             if (!cells_.contains(c)) continue;
-            if ((closed_.edges[k] & ~unsigned{cells_.edges_of_parent(c)}) == 0) continue;
-            const auto family = cells_.family_of(c);
-            for (CellIndex sibling = family.begin; sibling < family.end; ++sibling) {
-                for_each_edge(mesh().cells[sibling], cells_.edges_of_parent(sibling),
-                              [&](const EdgeVertices& edge) { of_parents.push_back(edge); });
-            }
+            const bool is_finer = (closed.edges[k] & ~unsigned{cells_.edges_of_parent(c)}) != 0;
+            if (is_finer) complete(cells_.family_of(c));
         }
-        pending_.add(generation, std::move(edges));
-        if (!of_parents.empty()) pending_.add(generation - 1, std::move(of_parents));
-        return plan;
     }
 
-    /// Collective. Bisects the edges of a generation, as closed last.
-    void bisect(PlannedLevel plan, std::uint32_t generation) {
+    /// Collective. Bisects the closed edges of a generation.
+    void bisect(std::uint32_t generation) {
+        const auto mark_cells = [&] { return pending_.of_generation(generation, cells_, false); };
+        PlannedLevel plan = close_level(mesh(), mark_cells, options_, Tuning{}, &cells_);
+        const MarkedCells closed = plan.level->closed_marks();
         bisect_level(plan, mesh(), options_, static_cast<int>(generation) + 1);
         const ListChanges changes = plan.changes();
+        const IndexVector<CellIndex, CellVertices> before = mesh().cells;
         plan.commit();
-        pending_.clear(generation);
         step_.cells.append(changes.cells);
         step_.facets.append(changes.facets);
         step_.edges.append(changes.edges);
 
-        std::vector<EdgeMask> marked(changes.cells.count_before(), 0);
-        for (std::size_t k = 0; k < closed_.cells.size(); ++k) {
-            marked[closed_.cells[k].value()] = closed_.edges[k];
+        IndexVector<CellIndex, EdgeMask> marked;
+        marked.assign(before.size(), 0);
+        for (std::size_t k = 0; k < closed.cells.size(); ++k) {
+            marked[closed.cells[k]] = closed.edges[k];
         }
         std::vector<std::uint32_t> first(marked.size() + 1, 0);
-        changes.cells.for_each_new([&](std::size_t number, std::size_t before, unsigned) {
-            first[before + 1] = static_cast<std::uint32_t>(number + 1);
+        changes.cells.for_each_new([&](std::size_t number, std::size_t parent, unsigned) {
+            first[parent + 1] = static_cast<std::uint32_t>(number + 1);
         });
         cells_.add_midpoints(generation);
-        cells_.set_kinds(order_families(mesh(), step_.cells, cells_, {first, marked, generation}));
+        auto kinds = order_families(mesh(), step_.cells, cells_, {first, marked, generation});
+        keep_pending(before, first, marked);
+        cells_.set_kinds(std::move(kinds));
+    }
+
+    /// Transfers the marks of edges that the level did not bisect to the cells after it. An edge of
+    /// a bisected transition cell is an edge of some piece of its family.
+    void keep_pending(const IndexVector<CellIndex, CellVertices>& before,
+                      const std::vector<std::uint32_t>& first,
+                      const IndexVector<CellIndex, EdgeMask>& bisected) {
+        PendingEdges after(processes_, mesh().cells.size());
+        for (CellIndex c{0}; c < before.end_index(); ++c) {
+            const unsigned edges = pending_.of(c) & ~unsigned{bisected[c]};
+            if (edges == 0) continue;
+            const auto family = cells_.contains(c)
+                                    ? cells_.family_of(c)
+                                    : TransitionCells::Family{c, CellIndex{c.value() + 1U}};
+            const CellIndex end{first[family.end.value()]};
+            // The faces of new cells may require further edges.
+            const bool is_new = end.value() - first[family.begin.value()] >
+                                family.end.value() - family.begin.value();
+            for (CellIndex piece{first[family.begin.value()]}; piece < end; ++piece) {
+                const auto common =
+                    static_cast<EdgeMask>(common_edges(mesh().cells[piece], before[c], edges));
+                if (is_new || pending_.is_open(c)) {
+                    after.add_open(piece, common);
+                } else {
+                    after.add(piece, common);
+                }
+            }
+        }
+        pending_ = std::move(after);
+    }
+    /// Returns the edges of a cell that are among these edges of another.
+    static unsigned common_edges(const CellVertices& cell, const CellVertices& other,
+                                 unsigned edges) {
+        unsigned common = 0;
+        for (std::size_t e = 0; e < 6; ++e) {
+            const std::array ends{cell[cell_edges[e][0]], cell[cell_edges[e][1]]};
+            for (std::size_t f = 0; f < 6; ++f) {
+                if ((edges >> f & 1U) == 0) continue;
+                const std::array of_other{other[cell_edges[f][0]], other[cell_edges[f][1]]};
+                if (std::ranges::is_permutation(ends, of_other)) common |= 1U << e;
+            }
+        }
+        return common;
     }
 
     /// Collective.
@@ -288,7 +337,6 @@ private:
     RegularStep step_;
     PendingEdges pending_;
     TransitionCells cells_;
-    MarkedCells closed_;  // of the generation that was closed last
 };
 
 }  // namespace

@@ -78,6 +78,9 @@ def _ends_in_parents(step: _octetra.Adaptation, before: Handover,
     a corner of it, which is both ends: (end, cell, corner of the child, corner of the parent that this end is)."""
     if step.is_coarser:
         raise _octetra.InputError("parents: the step must be a refinement, not a coarsening")
+    if len(step.vertices_before) > 0:
+        raise _octetra.InputError("parents: not available for a step with the regular closure, which can bisect a cell "
+                                  "twice")
     if (step.vertex_count_before, len(step.cells.parents)) != (len(_nodes(before)[0]), len(after.cells)):
         raise _octetra.InputError("parents: the step did not transform the first mesh into the second")
     dolfinx_cell = np.empty(len(before.cells), np.int32)

@@ -17,7 +17,7 @@ struct BalanceOptions {
     /// may become the roots. The mesh then forgets its history until
     /// AdaptiveMesh::recall_history(): coarsening stops at the new roots, a checkpoint stores them
     /// as its input, and files number parents among them. The results of further refinement are the
-    /// same.
+    /// same. Has no effect on a mesh that was refined with Closure::regular.
     bool may_forget_history = false;
 
     friend bool operator==(const BalanceOptions&, const BalanceOptions&) = default;

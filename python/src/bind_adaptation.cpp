@@ -145,15 +145,17 @@ void bind_adaptation(py::module_& module, MeshClass& mesh) {
                                "EntityTransfer of this rank's tagged edges.")
         .def_readonly("vertex_count_before", &od::Adaptation::vertex_count_before,
                       "int: the number of this rank's vertices before the step.")
-        .def_property_readonly("new_vertex_ends", list(&od::Adaptation::new_vertex_ends),
-                               "int32 (new vertices, 2), of refinement: the ends of the edge that "
-                               "each new vertex halves, by the numbers after the step. The first new "
-                               "vertex has the number vertex_count_before, unless the closure is "
-                               "'regular': then vertices_before is -1 for new vertices.")
-        .def_property_readonly("vertices_before", list(&od::Adaptation::vertices_before),
-                               "int32 (vertices,), of coarsening and of refinement with the closure "
-                               "'regular': the number that each vertex had before the step, -1 for "
-                               "new vertices. Otherwise empty.");
+        .def_property_readonly(
+            "new_vertex_ends", list(&od::Adaptation::new_vertex_ends),
+            "int32 (new vertices, 2), of refinement: the ends of the edge that "
+            "each new vertex halves, by the numbers after the step. The first new "
+            "vertex has the number vertex_count_before, unless the closure is "
+            "'regular': then vertices_before is -1 for new vertices.")
+        .def_property_readonly(
+            "vertices_before", list(&od::Adaptation::vertices_before),
+            "int32 (vertices,), of coarsening and of refinement with the closure "
+            "'regular': the number that each vertex had before the step, -1 for "
+            "new vertices. Otherwise empty.");
     def_method(adaptation, "transfer_vertices", "values", &transfer_vertices,
                "Transfers the values of a continuous, piecewise linear function to the vertices "
                "after the step.\n\n"

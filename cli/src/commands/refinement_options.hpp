@@ -25,8 +25,8 @@ void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
 /// Returns whether the option with this name, without dashes, was given.
 [[nodiscard]] bool was_given(const CLI::App& subcommand, std::string_view name);
 
-/// Returns whether --levels, --scheme, --closure or --seed was given, even with the default value. They have
-/// no meaning without a criterion.
+/// Returns whether --levels, --scheme, --closure or --seed was given, even with the default value.
+/// They have no meaning without a criterion.
 [[nodiscard]] bool has_refinement_options(const CLI::App& subcommand);
 
 /// Throws InputError for an unknown scheme.

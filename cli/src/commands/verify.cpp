@@ -99,7 +99,8 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
     }
     if (given.before.empty() && !options.request && given.has_refinement_options) {
         throw InputError(
-            "verify: --levels, --scheme, --closure and --seed require a selection, as in --all --levels 2");
+            "verify: --levels, --scheme, --closure and --seed require a selection, as in --all "
+            "--levels 2");
     }
     if (given.fast && given.min_dihedral) {
         throw InputError("verify: --min-dihedral cannot be checked with --fast");

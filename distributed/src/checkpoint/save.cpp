@@ -22,25 +22,25 @@ namespace {
 
 CheckpointFacts facts_of(const SavedMesh& saved, const MeshFacts& input,
                          std::span<const Field> fields, std::uint64_t cells_now) {
-    CheckpointFacts facts{.vertices = input.vertices,
-                          .cells = input.cells,
-                          .facets = input.facets,
-                          .edges = input.edges,
-                          .attributes_per_point = input.attributes_per_point,
-                          .index_base = input.index_base,
-                          .has_point_markers = input.has_point_markers,
-                          .has_regions = input.has_regions,
-                          .has_facet_markers = input.has_facet_markers,
-                          .has_edge_markers = input.has_edge_markers,
-                          .features = input.features,
-                          .vertices_now = saved.numbers->vertex_count,
-                          .cells_now = cells_now,
-                          .closure = saved.steps.empty() ? Closure::longest_edge
-                                                         : saved.mesh->closure,
-                          .steps = std::vector<StepFacts>(saved.steps.size()),
-                          .fields = {},
-                          .group_names = input.group_names.list(),
-                          .state = *saved.state};
+    CheckpointFacts facts{
+        .vertices = input.vertices,
+        .cells = input.cells,
+        .facets = input.facets,
+        .edges = input.edges,
+        .attributes_per_point = input.attributes_per_point,
+        .index_base = input.index_base,
+        .has_point_markers = input.has_point_markers,
+        .has_regions = input.has_regions,
+        .has_facet_markers = input.has_facet_markers,
+        .has_edge_markers = input.has_edge_markers,
+        .features = input.features,
+        .vertices_now = saved.numbers->vertex_count,
+        .cells_now = cells_now,
+        .closure = saved.steps.empty() ? Closure::longest_edge : saved.mesh->closure,
+        .steps = std::vector<StepFacts>(saved.steps.size()),
+        .fields = {},
+        .group_names = input.group_names.list(),
+        .state = *saved.state};
     std::ranges::transform(fields, std::back_inserter(facts.fields),
                            [](const Field& field) { return facts_of(field); });
     return facts;

@@ -7,8 +7,8 @@
 #include <octetra/distributed/entity_transfer.hpp>
 #include <octetra/distributed/refine.hpp>
 
-#include "level/marked_edges.hpp"
 #include "level/marked_cells.hpp"
+#include "level/marked_edges.hpp"
 #include "level/rounding_failure.hpp"
 #include "pattern/patterns.hpp"
 

@@ -5,9 +5,9 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/migration.hpp>
 
-#include "assemble/has_lists.hpp"
 #include "assemble/arrivals.hpp"
 #include "assemble/departures.hpp"
+#include "assemble/has_lists.hpp"
 
 namespace octetra::distributed {
 

@@ -12,9 +12,9 @@
 #include <octetra/core/repeated_cells.hpp>
 #include <octetra/distributed/profile.hpp>
 
+#include "assemble/ancestors_of_roots.hpp"
 #include "partition/cell_weights.hpp"
 #include "partition/rcb.hpp"
-#include "assemble/ancestors_of_roots.hpp"
 #include "setup/find_interfaces.hpp"
 #include "setup/owners.hpp"
 #include "setup/part_vertices.hpp"

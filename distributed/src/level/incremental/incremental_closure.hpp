@@ -6,8 +6,8 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "level/marked_edges.hpp"
 #include "level/incremental/adjacency.hpp"
+#include "level/marked_edges.hpp"
 #include "pattern/patterns.hpp"
 
 namespace octetra::distributed {

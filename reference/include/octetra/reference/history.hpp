@@ -60,7 +60,8 @@ using CellMarks = IndexVector<CellIndex, char>;
 /// Edges whose midpoints are removed are removed from their steps, and empty steps are dropped.
 /// (b) is the rule of closure, so the rest of each step is closed. With Closure::regular, in
 /// addition,
-///  (c) if K contains the midpoint of an edge of a child of a cell, it contains all midpoints of the
+///  (c) if K contains the midpoint of an edge of a child of a cell, it contains all midpoints of
+///  the
 ///      cell's edges: otherwise a transition cell would be bisected.
 ///
 /// If midpoints were rounded, a cell without them may be flat or inverted although its children

@@ -144,17 +144,17 @@ std::vector<int> parts_by_coordinates(const Communicator& processes, const Share
     const Requests requests = request(processes, vertices.owners, numbers);
     const auto points = fetch(processes, requests, vertices.points, vertices.begin);
     const auto& roots = share.roots.roots;
-    const auto centroid_of = [&](std::size_t i) {
+    const auto centroid_of_root = [&](std::size_t i) {
         Corners corners;
         for (std::size_t k = 0; k < 4; ++k) {
             const auto found = std::ranges::lower_bound(numbers, roots[i].corners[k]);
             corners[k] = points[static_cast<std::size_t>(found - numbers.begin())];
         }
-        return place_of(corners);
+        return centroid_of(corners);
     };
     std::vector<Point> centroids;
     centroids.reserve(roots.size());
-    for (std::size_t i = 0; i < roots.size(); ++i) centroids.push_back(centroid_of(i));
+    for (std::size_t i = 0; i < roots.size(); ++i) centroids.push_back(centroid_of_root(i));
     const auto some = [&](std::size_t first, std::span<Point> places) {
         std::ranges::copy(std::span(centroids).subspan(first, places.size()), places.begin());
     };

@@ -100,7 +100,7 @@ std::optional<EvenParts> even_parts(const DistributedMesh& mesh,
             for (std::size_t k = 0; k < 4; ++k) corners[k] = input.points[input.cells[c][k]];
             const std::size_t r = c.value();
             weight_here += weights[r];
-            centroids.push_back({place_of(corners), roots.roots[r], weights[r]});
+            centroids.push_back({centroid_of(corners), roots.roots[r], weights[r]});
         }
     }
     std::vector<int> ranks = bisect_coordinates(processes, centroids, processes.size());

@@ -127,7 +127,7 @@ std::vector<int> by_coordinates(const Mesh& mesh, int parts, const std::vector<f
     const auto centroids = [&](std::size_t first, std::span<Point> points) {
         for (Point& point : points) {
             const auto& [a, b, c, d] = mesh.cells[CellIndex{first++}];
-            point = place_of({mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
+            point = centroid_of({mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
         }
     };
     WeighedPoints points{.count = mesh.cells.size(),

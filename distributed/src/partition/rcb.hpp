@@ -15,7 +15,7 @@ namespace octetra::distributed {
 
 /// Returns the position of a cell: the mean of its corners, with rounding that depends on their
 /// order, which is cheaper than an order-independent mean.
-[[nodiscard]] inline Point place_of(const Corners& corners) {
+[[nodiscard]] inline Point centroid_of(const Corners& corners) {
     const auto mean = [](double a, double b, double c, double d) {
         return (a / 4 + b / 4) + (c / 4 + d / 4);  // does not overflow
     };
@@ -57,7 +57,7 @@ struct WeighedPoints {
 ///
 /// For each level of the tree, processes reduce the extent of each box, then arrays of sums, one
 /// array per digit, of 2^13 numbers for all boxes together or of four for each, until at most 2^11
-/// points may be at a limit, and then these points: about six reductions, more if many coordinates
+/// points may be at a limit, and then these points: about six exchanges, more if many coordinates
 /// are equal.
 [[nodiscard]] std::vector<int> bisect_coordinates(const Communicator& processes,
                                                   const WeighedPoints& points, int parts);

@@ -65,33 +65,32 @@ RegularStep unchanged(const DistributedMesh& mesh) {
 class PendingEdges {
 public:
     PendingEdges(const Communicator& processes, std::size_t cell_count)
-        : processes_(processes), of_cell_(cell_count, 0), is_open_(cell_count, 0) {}
+        : processes_(processes), of_cell_(cell_count, 0), open_(cell_count, 0) {}
 
-    void add(CellIndex cell, EdgeMask edges) {
+    /// Adds edges that are closed.
+    void add(CellIndex cell, unsigned edges) {
         of_cell_[cell] = static_cast<EdgeMask>(of_cell_[cell] | edges);
     }
-    /// Adds edges that are not closed yet.
-    void add_open(CellIndex cell, EdgeMask edges) {
-        if ((edges & ~unsigned{of_cell_[cell]}) == 0) return;
+    /// Adds edges; those that are new are not closed.
+    void add_open(CellIndex cell, unsigned edges) {
+        open_[cell] = static_cast<EdgeMask>(open_[cell] | (edges & ~unsigned{of_cell_[cell]}));
         add(cell, edges);
-        is_open_[cell] = 1;
     }
-    void set_closed(CellIndex cell) { is_open_[cell] = 0; }
     [[nodiscard]] EdgeMask of(CellIndex cell) const { return of_cell_[cell]; }
-    [[nodiscard]] bool is_open(CellIndex cell) const { return is_open_[cell] != 0; }
+    [[nodiscard]] EdgeMask open_of(CellIndex cell) const { return open_[cell]; }
 
     /// Returns the cells that mark edges of a generation, each with these edges.
-    [[nodiscard]] MarkedCells of_generation(std::uint32_t generation, const TransitionCells& cells,
-                                            bool only_open) const {
-        MarkedCells marked;
-        for_each([&](CellIndex c) {
-            if (only_open && is_open_[c] == 0) return;
-            const EdgeMask edges = cells.edges_of_generation(c, generation) & of_cell_[c];
-            if (edges == 0) return;
-            marked.cells.push_back(c);
-            marked.edges.push_back(edges);
-        });
-        marked.count = marked.cells.size();
+    [[nodiscard]] MarkedCells of_generation(std::uint32_t generation,
+                                            const TransitionCells& cells) const {
+        return selected(of_cell_, generation, cells);
+    }
+    /// The same for edges that are not closed, which are closed then.
+    [[nodiscard]] MarkedCells take_open(std::uint32_t generation, const TransitionCells& cells) {
+        MarkedCells marked = selected(open_, generation, cells);
+        for (std::size_t k = 0; k < marked.cells.size(); ++k) {
+            EdgeMask& open = open_[marked.cells[k]];
+            open = static_cast<EdgeMask>(open & ~unsigned{marked.edges[k]});
+        }
         return marked;
     }
 
@@ -99,10 +98,8 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> greatest_below(std::uint64_t limit,
                                                               const TransitionCells& cells) const {
         std::uint64_t end = 0;  // one more than the greatest generation
-        for_each([&](CellIndex c) {
-            for (const std::uint64_t g : generations(c, cells)) {
-                if (g < limit) end = std::max(end, g + 1);
-            }
+        for_each_generation(cells, [&](std::uint64_t generation) {
+            if (generation < limit) end = std::max(end, generation + 1);
         });
         const std::uint64_t greatest = processes_.max(end);
         if (greatest == 0) return std::nullopt;
@@ -112,35 +109,45 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> least(const TransitionCells& cells) const {
         constexpr std::uint64_t complement = std::numeric_limits<std::uint32_t>::max();
         std::uint64_t least = complement;
-        for_each([&](CellIndex c) {
-            for (const std::uint64_t g : generations(c, cells)) least = std::min(least, g);
-        });
+        for_each_generation(cells,
+                            [&](std::uint64_t generation) { least = std::min(least, generation); });
         const std::uint64_t greatest = processes_.max(complement - least);
         if (greatest == 0) return std::nullopt;
         return static_cast<std::uint32_t>(complement - greatest);
     }
 
 private:
-    /// Calls f for each cell with edges.
-    void for_each(auto&& f) const {
-        for (CellIndex c{0}; c < of_cell_.end_index(); ++c) {
-            if (of_cell_[c] != 0) f(c);
+    using Masks = IndexVector<CellIndex, EdgeMask>;
+
+    static MarkedCells selected(const Masks& masks, std::uint32_t generation,
+                                const TransitionCells& cells) {
+        MarkedCells marked;
+        for (CellIndex c{0}; c < masks.end_index(); ++c) {
+            if (masks[c] == 0) continue;
+            const EdgeMask edges = cells.edges_of_generation(c, generation) & masks[c];
+            if (edges == 0) continue;
+            marked.cells.push_back(c);
+            marked.edges.push_back(edges);
         }
+        marked.count = marked.cells.size();
+        return marked;
     }
-    /// Returns the generations of a cell's edges.
-    [[nodiscard]] std::vector<std::uint32_t> generations(CellIndex c,
-                                                         const TransitionCells& cells) const {
-        std::vector<std::uint32_t> found;
-        const std::uint32_t newest = cells.generation_of(c);
-        for (std::uint32_t g = newest == 0 ? 0 : newest - 1; g <= newest; ++g) {
-            if ((cells.edges_of_generation(c, g) & of_cell_[c]) != 0) found.push_back(g);
+
+    /// Calls f with the generation of the edges of each cell that has any; twice if a cell has
+    /// edges of two generations.
+    void for_each_generation(const TransitionCells& cells, auto&& f) const {
+        for (CellIndex c{0}; c < of_cell_.end_index(); ++c) {
+            if (of_cell_[c] == 0) continue;
+            const std::uint32_t newest = cells.generation_of(c);
+            const EdgeMask of_parent = cells.contains(c) ? cells.edges_of_parent(c) : EdgeMask{0};
+            if ((of_cell_[c] & of_parent) != 0) f(newest - 1);
+            if ((of_cell_[c] & ~unsigned{of_parent}) != 0) f(newest);
         }
-        return found;
     }
 
     Communicator processes_;
-    IndexVector<CellIndex, EdgeMask> of_cell_;
-    IndexVector<CellIndex, std::uint8_t> is_open_;  ///< whether edges of the cell are not closed
+    Masks of_cell_;
+    Masks open_;  ///< those whose closure may not be marked yet
 };
 
 class RegularRefinement {
@@ -233,12 +240,8 @@ private:
     /// must be completed. Edges that were closed before require no others: the closure of a set is
     /// the union of the closures of its edges.
     void close(std::uint32_t generation) {
-        const auto open_cells = [&] {
-            MarkedCells marked = pending_.of_generation(generation, cells_, true);
-            for (const CellIndex c : marked.cells) pending_.set_closed(c);
-            return marked;
-        };
-        PlannedLevel plan = close_level(mesh(), open_cells, options_, Tuning{}, &cells_);
+        const auto mark_cells = [&] { return pending_.take_open(generation, cells_); };
+        PlannedLevel plan = close_level(mesh(), mark_cells, options_, Tuning{}, &cells_);
         if (!plan.changes_anything()) return;
         step_.counts += plan.counts;
         const MarkedCells closed = plan.level->closed_marks();
@@ -253,7 +256,7 @@ private:
 
     /// Collective. Bisects the closed edges of a generation.
     void bisect(std::uint32_t generation) {
-        const auto mark_cells = [&] { return pending_.of_generation(generation, cells_, false); };
+        const auto mark_cells = [&] { return pending_.of_generation(generation, cells_); };
         PlannedLevel plan = close_level(mesh(), mark_cells, options_, Tuning{}, &cells_);
         const MarkedCells closed = plan.level->closed_marks();
         bisect_level(plan, mesh(), options_, static_cast<int>(generation) + 1);
@@ -296,13 +299,11 @@ private:
             const bool is_new = end.value() - first[family.begin.value()] >
                                 family.end.value() - family.begin.value();
             for (CellIndex piece{first[family.begin.value()]}; piece < end; ++piece) {
-                const auto common =
-                    static_cast<EdgeMask>(common_edges(mesh().cells[piece], before[c], edges));
-                if (is_new || pending_.is_open(c)) {
-                    after.add_open(piece, common);
-                } else {
-                    after.add(piece, common);
-                }
+                const auto in_piece = [&](unsigned of_cell) {
+                    return common_edges(mesh().cells[piece], before[c], of_cell & edges);
+                };
+                after.add_open(piece, in_piece(is_new ? all_edges : pending_.open_of(c)));
+                after.add(piece, in_piece(all_edges));
             }
         }
         pending_ = std::move(after);

@@ -41,7 +41,7 @@ public:
         for (std::size_t k = 0; k < centroids.size(); ++k) {
             corners_->prefetch(first + k + 16);
             const Corners at = corners_->of(first + k);
-            centroids[k] = place_of(at);
+            centroids[k] = centroid_of(at);
             if (first + k != checked_count_ || !are_positive_) continue;
             ++checked_count_;
             are_positive_ = filter_.is_surely_positive(at[0], at[1], at[2], at[3]) ||
@@ -166,7 +166,7 @@ public:
         VerticesOfPart vertices = find_vertices(processes_, owners, share_, mesh_.cells);
         fetch_vertices(processes_, vertices, share_, mesh_);
         for (CellVertices& cell : mesh_.cells) {
-            for (VertexIndex& v : cell) v = vertices.set.place_of(v);
+            for (VertexIndex& v : cell) v = vertices.set.local_of(v);
         }
         Mesh& lists = share_.lists;
         lists.points = {};

@@ -25,7 +25,7 @@ public:
         const std::vector<Point>& owned = share.lists.points;
         points_ = fetch(processes, requests, owned, share.first_vertex);
         for (CellVertices& cell : *cells_) {
-            for (VertexIndex& v : cell) v = vertices.place_of(v);
+            for (VertexIndex& v : cell) v = vertices.local_of(v);
         }
     }
 

@@ -161,7 +161,7 @@ private:
     }
     [[nodiscard]] std::array<VertexIndex, N> local_vertices(const Side& one) const {
         auto vertices = one.vertices;
-        for (VertexIndex& v : vertices) v = vertices_->set.place_of(v);
+        for (VertexIndex& v : vertices) v = vertices_->set.local_of(v);
         return vertices;
     }
 

@@ -64,7 +64,7 @@ public:
     }
 
     /// Returns the number of vertices in the set with lower numbers. `v` must be in the set.
-    [[nodiscard]] VertexIndex place_of(VertexIndex v) const {
+    [[nodiscard]] VertexIndex local_of(VertexIndex v) const {
         if (!indices_.empty()) return indices_[v.value() - first_];
         const std::size_t word = word_of(v.value());
         const std::uint64_t lower = bits_[word] & (bit_of(v.value()) - 1);

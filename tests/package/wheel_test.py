@@ -29,6 +29,15 @@ mesh.refine(octetra.mark.sphere(mesh, (0, 0, 0), 0.5))
 mesh.write(sys.argv[3])
 """
 
+HAND_OVER = """\
+import sys
+import octetra.dolfinx
+mesh = octetra.read(sys.argv[1])
+domain = octetra.dolfinx.to_mesh(mesh).mesh
+if domain.comm.rank == 0:
+    print(domain.topology.index_map(3).size_global, "cells")
+"""
+
 
 def skip_unless_ready():
     words = []
@@ -75,8 +84,10 @@ class Wheel(unittest.TestCase):
         self.assertEqual({name.split("/")[0] for name in names}, {"octetra", f"octetra-{version}.dist-info"})
         libraries = [name for name in names if ".so" in name]
         self.assertEqual(len(libraries), 1, libraries)
-        own = {f"octetra/{path.relative_to(source / 'python/octetra')}"
-               for path in (source / "python/octetra").rglob("*") if path.suffix in (".py", ".pyi", ".typed")}
+        own = {f"octetra/{path.relative_to(folder)}"
+               for folder in (source / "python/octetra", source / "adapters/dolfinx/python")
+               for path in folder.rglob("*")
+               if path.suffix in (".py", ".pyi", ".typed") and path.name != "_dolfinx.pyi"}
         expected = {*own, "octetra/_program.py", "octetra/bin/octetra", *libraries}
         self.assertEqual({name for name in names if name.startswith("octetra/")}, expected)
         self.assertIn(f"octetra-{version}.dist-info/licenses/LICENSE", names)
@@ -94,6 +105,12 @@ class Wheel(unittest.TestCase):
         output = self.folder / "three.mesh"
         self.run_command(mpirun, 3, self.bin / "python", "-m", "mpi4py", "-c", REFINE, "mpi4py", self.mesh, output)
         self.assertEqual(output.read_bytes(), (self.folder / "expected.mesh").read_bytes())
+
+    @unittest.skipUnless(importlib.util.find_spec("dolfinx"), "there is no dolfinx (Debian: python3-dolfinx-real)")
+    def test_hands_meshes_over_to_dolfinx(self):
+        for command in ((), (mpirun, 2)):
+            printed = self.run_command(*command, self.bin / "python", "-m", "mpi4py", "-c", HAND_OVER, self.mesh)
+            self.assertEqual(printed, "384 cells\n")
 
     def test_has_the_command_line(self):
         printed = self.run_command(self.bin / "python", "-m", "octetra", "--help", PATH="/nowhere")

@@ -16,10 +16,11 @@ import dolfinx.fem.petsc
 import dolfinx.mesh
 import numpy as np
 import ufl
-from lattice import created, lattice, say, seconds, world
+from lattice import IS_0_5, VERSION, created, lattice, say, seconds, world
 from mpi4py import MPI
 
 import octetra.dolfinx
+from octetra.dolfinx._versions import linear_space, nodes_of_cells
 
 
 def around_a_line(points, cells, step):
@@ -33,16 +34,21 @@ class ByDolfinx:
 
     def marks(self, step):
         own = self.domain.topology.index_map(3).size_local
-        return around_a_line(self.domain.geometry.x, self.domain.geometry.dofmap.array.reshape(-1, 4)[:own], step)
+        return around_a_line(self.domain.geometry.x, nodes_of_cells(self.domain)[:own], step)
 
     def refine(self, marks):
         """Returns the seconds of refinement and of making a DOLFINx mesh; here the latter is part
         of the former."""
         def work():
-            self.domain.topology.create_entities(1)
+            topology = self.domain.topology
+            topology.create_entities(1)
+            if not IS_0_5:
+                topology.create_connectivity(3, 1)
             cells = np.flatnonzero(marks).astype(np.int32)
-            edges = dolfinx.mesh.compute_incident_entities(self.domain, cells, 3, 1)
-            return dolfinx.mesh.refine(self.domain, edges, redistribute=world.size > 1)
+            edges = dolfinx.mesh.compute_incident_entities(self.domain if IS_0_5 else topology, cells, 3, 1)
+            if IS_0_5:
+                return dolfinx.mesh.refine(self.domain, edges, redistribute=world.size > 1)
+            return dolfinx.mesh.refine(self.domain, edges)[0]  # redistributes
 
         spent, self.domain = seconds(work)
         return spent, 0.0
@@ -65,15 +71,16 @@ class ByOctetra:
 
 def solve(domain):
     """Solves -div grad u = 1 with u = 0 on the boundary, by linear elements."""
-    space = dolfinx.fem.FunctionSpace(domain, ("Lagrange", 1))
+    space = linear_space(domain, None)
     on_boundary = dolfinx.fem.locate_dofs_geometrical(
         space, lambda x: np.isclose(x, 0).any(axis=0) | np.isclose(x, 1).any(axis=0))
     fixed = dolfinx.fem.dirichletbc(dolfinx.fem.Constant(domain, 0.0), on_boundary, space)
     u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
     one = dolfinx.fem.Constant(domain, 1.0)
     options = {"ksp_type": "cg", "pc_type": "jacobi", "ksp_rtol": 1e-5}
-    return dolfinx.fem.petsc.LinearProblem(ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx, one * v * ufl.dx, [fixed],
-                                           petsc_options=options).solve()
+    prefix = {"petsc_options_prefix": "adaptive_run_"} if VERSION >= (0, 10) else {}
+    return dolfinx.fem.petsc.LinearProblem(ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx, one * v * ufl.dx, bcs=[fixed],
+                                           petsc_options=options, **prefix).solve()
 
 
 def run(refined, steps, patience):

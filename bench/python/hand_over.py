@@ -14,6 +14,7 @@ import ufl
 from lattice import created, lattice, say, seconds, world
 
 import octetra.dolfinx
+from octetra.dolfinx._versions import linear_space
 
 CREATE, TO, GHOSTS, FROM = "create_mesh, no ghosts", "to_mesh, no ghosts", "to_mesh, ghosts by face", "from_mesh"
 
@@ -26,7 +27,7 @@ def entities(mesh):
 def matrix(mesh):
     """Creates what a solver needs of the mesh: the numbering of unknowns, and the matrix of the
     Laplace operator."""
-    space = dolfinx.fem.FunctionSpace(mesh, ("Lagrange", 1))
+    space = linear_space(mesh, None)
     u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
     dolfinx.fem.petsc.assemble_matrix(dolfinx.fem.form(ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx)).assemble()
 

@@ -1,5 +1,5 @@
-"""Common parts of the benchmarks with DOLFINx: a distributed lattice, DOLFINx's mesh of the same
-cells, a clock."""
+"""Common parts of the benchmarks with DOLFINx 0.5 and 0.9 to 0.11: a distributed lattice, DOLFINx's
+mesh of the same cells, a clock."""
 
 import gc
 import itertools
@@ -12,6 +12,8 @@ from dolfinx import cpp
 from mpi4py import MPI
 
 import octetra
+from octetra.dolfinx._versions import IS_COMPILED_FOR as IS_0_5
+from octetra.dolfinx._versions import VERSION
 
 world = MPI.COMM_WORLD
 
@@ -47,15 +49,23 @@ def lattice(cubes):
 
 
 def staying(cells):
-    """Returns a partitioner that leaves these cells on their ranks. It also returns to DOLFINx the
-    ranks behind their faces, from which DOLFINx determines sharers. It is evaluated once, so that
+    """Returns a partitioner that leaves these cells on their ranks. It is evaluated once, so that
     only create_mesh is measured."""
-    rank_of = np.repeat(np.arange(world.size), world.allgather(cells.num_nodes))
-    graph = cpp.mesh.build_dual_graph(world, cells, 3)
-    lists = [[world.rank, *sorted({*rank_of[graph.links(c)]} - {world.rank})] for c in range(cells.num_nodes)]
+    if IS_0_5:
+        lists = with_ranks_behind_faces(cells)
+    else:
+        lists = np.full((len(cells), 1), world.rank)
     offsets = np.cumsum([0, *map(len, lists)], dtype=np.int32)
     destinations = cpp.graph.AdjacencyList_int32(np.fromiter(itertools.chain.from_iterable(lists), np.int32), offsets)
-    return lambda comm, ranks, dimension, cells, ghosts: destinations
+    return lambda *_: destinations
+
+
+def with_ranks_behind_faces(cells):
+    """Returns for each cell this rank and those behind its faces, from which DOLFINx 0.5 determines
+    sharers. Later versions would make ghosts there."""
+    rank_of = np.repeat(np.arange(world.size), world.allgather(len(cells)))
+    graph = cpp.mesh.build_dual_graph(world, cpp.graph.AdjacencyList_int64(cells), 3)
+    return [[world.rank, *sorted({*rank_of[graph.links(c)]} - {world.rank})] for c in range(len(cells))]
 
 
 def created(mesh):
@@ -67,7 +77,14 @@ def created(mesh):
     points[numbers[mine]] = mesh.points[mine]
     world.Allreduce(MPI.IN_PLACE, points)
     points = np.array_split(points, world.size)[world.rank]
-    cells = cpp.graph.AdjacencyList_int64(numbers[mesh.cells].astype(np.int64))
-    element = ufl.VectorElement("Lagrange", "tetrahedron", 1)
+    cells = numbers[mesh.cells].astype(np.int64)
     stay = staying(cells)
-    return lambda: dolfinx.mesh.create_mesh(world, cells, points, ufl.Mesh(element), dolfinx.mesh.GhostMode.none, stay)
+    create = dolfinx.mesh.create_mesh
+    if IS_0_5:
+        lists, domain = cpp.graph.AdjacencyList_int64(cells), ufl.Mesh(ufl.VectorElement("Lagrange", "tetrahedron", 1))
+        return lambda: create(world, lists, points, domain, dolfinx.mesh.GhostMode.none, stay)
+    import basix.ufl
+
+    domain = ufl.Mesh(basix.ufl.element("Lagrange", "tetrahedron", 1, shape=(3,)))
+    geometry = (points, domain) if VERSION < (0, 10) else (domain, points)
+    return lambda: create(world, cells, *geometry, partitioner=stay)

@@ -140,7 +140,61 @@ TEST_P(RegularMesh, ContinuesFromACheckpointAsWithoutIt) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RegularMesh, testing::Range<std::uint64_t>(0, 6));
+INSTANTIATE_TEST_SUITE_P(Seeds, RegularMesh, testing::Range<std::uint64_t>(0, 4));
+
+/// Marks the cell with this number in the whole mesh, modulo the number of cells.
+std::vector<std::uint8_t> mark_of(const AdaptiveMesh& mesh, std::uint64_t number) {
+    std::vector<std::uint8_t> marks;
+    for (const std::uint64_t c : mesh.cell_numbers()) marks.push_back(c == number ? 1 : 0);
+    return marks;
+}
+
+/// Two cells of similar or of different size with a common face.
+class TwoCells : public testing::TestWithParam<double> {
+protected:
+    const Mesh input = test::mesh_of(
+        {{0, 0, 0}, {1, 0.1, 0}, {0.2, 0.9, 0.1}, {0.3, 0.2, 0.8}, {0.4, GetParam(), -0.7}},
+        {{0, 1, 2, 3}, {0, 2, 1, 4}});
+};
+
+/// Every cell is marked in every mesh that two marked cells in turn can lead to.
+TEST_P(TwoCells, AreRefinedAsByTheReferenceInEverySequenceOfThreeMarks) {
+    if (test::world().size() > 2) GTEST_SKIP() << "two cells are on at most two ranks";
+    const auto refine = [&](const std::vector<std::uint64_t>& cells) {
+        AdaptiveMesh mesh = mesh_in_parts(input, "block");
+        for (const std::uint64_t c : cells) (void)mesh.refine(mark_of(mesh, c), regular);
+        return mesh;
+    };
+    const auto count = [](const AdaptiveMesh& mesh) {
+        return mesh.processes().sum(mesh.cells().size());
+    };
+    int compared = 0;
+    for (std::uint64_t a = 0; a < 2; ++a) {
+        const std::uint64_t after_one = count(refine({a}));
+        for (std::uint64_t b = 0; b < after_one; ++b) {
+            const std::uint64_t after_two = count(refine({a, b}));
+            for (std::uint64_t c = 0; c < after_two; ++c) {
+                const Mesh found = refine({a, b, c}).collect();
+                if (!test::world().is_first()) continue;
+                reference::History history{input, {}};
+                for (const std::uint64_t cell : {a, b, c}) {
+                    const auto present = reference::replay(history).back();
+                    reference::CellMarks marks(present.mesh.cells.size(), false);
+                    marks[CellIndex{cell}] = true;
+                    history = reference::refined_regularly(history, marks);
+                }
+                ASSERT_TRUE(found == reference::replay(history).back().mesh)
+                    << a << ", " << b << ", " << c;
+                ++compared;
+            }
+        }
+    }
+    if (test::world().is_first()) {
+        EXPECT_GT(compared, 300);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, TwoCells, testing::Values(0.5, 3.0));
 
 TEST(RegularMesh, RefusesOtherSchemesAndAnotherClosureByName) {
     AdaptiveMesh mesh = mesh_in_parts(test::kuhn(1, 1, 1), "block");

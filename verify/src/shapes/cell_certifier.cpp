@@ -34,7 +34,7 @@ struct LongestEdges {
     bool has_near_ties = false;
 };
 
-/// Of equal lengths, selects that of the edge with the higher number. If corners ascend
+/// Among equal lengths, selects that of the edge with the higher number. If corners ascend
 /// lexicographically, that is the order of core/edge_order.hpp.
 template <class Int>
 LongestEdges longest_edges(const std::array<Int, 6>& l) {

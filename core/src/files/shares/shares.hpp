@@ -7,7 +7,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/process_group.hpp>
 
-/// How processes find their shares of a file that they read together. In a text file, a line
+/// Functions by which processes that read a file together find their shares. In a text file, a line
 /// belongs to the process in whose share of the bytes it begins, and the number of lines of lower
 /// ranks is the number of the first entity. In a Medit text file all processes search for the lines
 /// with keywords first (keyword_scan.hpp). In a binary Medit file the counts of rows determine the

@@ -208,8 +208,8 @@ TEST(RegularMesh, RefusesOtherSchemesAndAnotherClosureByName) {
     (void)mesh.refine({.all = true}, regular);
     const test::ObservedMesh before(mesh);
     EXPECT_EQ(test::thrown_by<InputError>([&] { (void)mesh.refine({.all = true}, StepOptions{}); }),
-              "the mesh was refined with the regular closure; it cannot be refined with the "
-              "longest-edge closure");
+              "the mesh was refined with the regular closure, and this step has the longest-edge "
+              "closure: repeat the step with the closure of the mesh");
     EXPECT_EQ(test::thrown_by<InputError>([&] {
                   (void)mesh.refine({.all = true}, {.closure = Closure::regular, .max_cells = 100});
               }),

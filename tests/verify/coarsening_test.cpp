@@ -57,7 +57,8 @@ TEST_P(Coarsening, KeepsTheSameVerticesByPresentCellsAsByThoseBeforeEachStep) {
     for (const Call& call : reference::random_coarsenings(GetParam())) {
         const Lineage lineage = lineage_of(call.before.input, test::cuts_of(call.before));
         const Reasons reasons =
-            keep_reasons(lineage, lineage.cells.present, {call.marked.begin(), call.marked.end()});
+            keep_reasons(lineage, lineage.cells, {call.marked.begin(), call.marked.end()},
+                         Closure::longest_edge);
         std::set<Point> by_cells;
         std::set<Point> all;
         for (VertexIndex v{0}; v < reasons.end_index(); ++v) {

@@ -1,5 +1,6 @@
 #include "adapt/adaptation.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -138,6 +139,13 @@ verify::Request request_of(RefineStep step, const MeshFacts& read,
     return {step.selection, step.scheme, step.typed.levels};
 }
 
+bool has_regular_step(const Script& script) {
+    return std::ranges::any_of(script.steps, [](const ScriptStep& step) {
+        const auto* const refine = std::get_if<RefineStep>(&step.step);
+        return refine != nullptr && refine->closure == Closure::regular;
+    });
+}
+
 /// Collective. Returns whether the result satisfies the claim.
 bool is_valid(const distributed::AdaptiveMesh& mesh, JudgedMesh coarse,
               const AdaptationOptions& options, const Script& script, const MeshFacts& read,
@@ -148,14 +156,13 @@ bool is_valid(const distributed::AdaptiveMesh& mesh, JudgedMesh coarse,
         return is_valid_coarsening(mesh, {options.input.path, step.typed, step.selection},
                                    options.output);
     }
+    if (has_regular_step(script) && world.is_first()) {
+        note(std::string(regular_closure_is_unchecked));
+    }
     Judgement judgement{.fine = options.output, .is_coarse_checked = options.check};
     if (options.claim == Claim::refines_mesh) {
-        const auto& step = std::get<RefineStep>(script.steps.front().step);
-        if (step.closure == Closure::longest_edge) {
-            judgement.request = request_of(step, read, world);
-        } else if (world.is_first()) {
-            note(std::string(regular_closure_is_unchecked));
-        }
+        judgement.request =
+            request_of(std::get<RefineStep>(script.steps.front().step), read, world);
     }
     RefinementMaps maps;
     if (since != nullptr) {
@@ -180,6 +187,11 @@ void adapt(const AdaptationOptions& options, const Script& script,
     MeshFacts read;  // on the first process
     std::vector<distributed::Field> fields;
     const bool has_history = is_checkpoint(options.input.path);
+    if (has_history && !options.maps.empty() && has_regular_step(script)) {
+        throw InputError(
+            "--maps: with the regular closure, vertices of a mesh with a history do not keep their "
+            "numbers; maps can be written from a mesh without history");
+    }
     if (has_history) read = facts_of_checkpoint(options.input.path, world);
     auto adaptive = has_history ? distributed::in_phase(
                                       world, "read", [&] { return load(options, world, fields); })
@@ -240,6 +252,9 @@ void adapt(const AdaptationOptions& options, const Script& script,
         report("verified");
     }
     write_and_report(adaptive, fields, options, watch);
+    if (has_regular_step(script) && !is_checkpoint(options.output) && world.is_first()) {
+        note(std::string(regular_history_is_lost));
+    }
     series.commit(world);
     if (since) {
         const distributed::Phase phase(world, "write");

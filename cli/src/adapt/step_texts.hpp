@@ -28,6 +28,10 @@ inline constexpr std::string_view regular_closure_is_unchecked =
     "the verifier does not check the rules of the regular closure, only that the mesh is "
     "conforming and refines the input by bisections at midpoints";
 
+inline constexpr std::string_view regular_history_is_lost =
+    "the bounds of the regular closure hold for refinements that continue from a checkpoint "
+    "(-o FILE.octetra); this file does not hold the history";
+
 /// Returns the reason why fewer levels than requested changed the mesh; nothing if all did.
 [[nodiscard]] std::vector<std::string> idle_levels(int done, int levels, std::string_view reason);
 

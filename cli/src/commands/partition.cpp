@@ -71,8 +71,7 @@ std::vector<float> weights_of(const Mesh& mesh, const PartitionOptions& options)
     if (!has_criterion(typed)) {
         if (!options.has_refinement_options) return {};
         throw InputError(
-            "partition: --levels, --scheme, --closure and --seed require a selection, as in "
-            "--sphere X,Y,Z,R "
+            "partition: --levels, --scheme and --seed require a selection, as in --sphere X,Y,Z,R "
             "--levels 2");
     }
     Selection selection = parse_selection(typed);

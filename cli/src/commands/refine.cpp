@@ -282,7 +282,8 @@ void refine_with_history(const RefineOptions& options, const Plan& plan,
            .maps = options.maps,
            .check = options.check,
            .verify = options.verify,
-           .claim = Claim::refines_mesh,
+           // With the regular closure, the cells of OUT need not be pieces of those of MESH.
+           .claim = plan.closure == Closure::regular ? Claim::refines_input : Claim::refines_mesh,
            .quiet = options.quiet},
           one_step, measured(all, options.profile));
 }
@@ -327,6 +328,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
     add_output_option(*refine_command, options->output);
     add_refinement_options(*refine_command, options->refinement,
                            "Cells to refine (criteria are combined; at least one is required)");
+    add_closure_option(*refine_command, options->refinement);
     add_number(*refine_command, "--max-cells", options->max_cells, whole_numbers_from(1),
                "fail, without writing, before a level that would exceed N cells")
         ->type_name("N");

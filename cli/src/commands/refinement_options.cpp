@@ -22,10 +22,13 @@ void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
         .add_option("--scheme", options.scheme,
                     "edges that a cell marks: all, the longest of each face, or its longest [8t]")
         ->type_name("8t|4t|2t");
+}
+
+void add_closure_option(CLI::App& subcommand, RefinementOptions& options) {
     subcommand
         .add_option("--closure", options.closure,
-                    "longest-edge: a face with a marked edge has its longest edge marked; regular: "
-                    "also bounds the angles of all later refinements [longest-edge]")
+                    "regular: bounds the angles of all refinements that continue from a checkpoint "
+                    "with\nthe same option [longest-edge]")
         ->type_name("longest-edge|regular");
 }
 
@@ -40,7 +43,7 @@ bool was_given(const CLI::App& subcommand, std::string_view name) {
 
 bool has_refinement_options(const CLI::App& subcommand) {
     return was_given(subcommand, "levels") || was_given(subcommand, "scheme") ||
-           was_given(subcommand, "closure") || was_given(subcommand, "seed");
+           was_given(subcommand, "seed");
 }
 
 Scheme parse_scheme(const RefinementOptions& options) {

@@ -18,15 +18,18 @@ struct RefinementOptions {
     int levels = 1;
 };
 
-/// Declares the selection under the heading `group`, --levels, --scheme and --closure.
+/// Declares the selection under the heading `group`, --levels and --scheme.
 void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
                             const std::string& group);
+
+/// Declares --closure, for subcommands that refine.
+void add_closure_option(CLI::App& subcommand, RefinementOptions& options);
 
 /// Returns whether the option with this name, without dashes, was given.
 [[nodiscard]] bool was_given(const CLI::App& subcommand, std::string_view name);
 
-/// Returns whether --levels, --scheme, --closure or --seed was given, even with the default value.
-/// They have no meaning without a criterion.
+/// Returns whether --levels, --scheme or --seed was given, even with the default value. They have
+/// no meaning without a criterion.
 [[nodiscard]] bool has_refinement_options(const CLI::App& subcommand);
 
 /// Throws InputError for an unknown scheme.

@@ -79,11 +79,6 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
                                   .min_dihedral = given.min_dihedral,
                                   .kept_per_code = described_of_each_code};
     if (given.before.empty() && has_criterion(given.refinement.selection)) {
-        if (parse_closure(given.refinement) == Closure::regular) {
-            throw InputError(
-                "verify: the rules of the regular closure cannot be checked yet; without criteria, "
-                "the mesh is checked as any refinement by bisections at midpoints");
-        }
         options.request = {parse_selection(given.refinement.selection),
                            parse_scheme(given.refinement), given.refinement.levels};
     }
@@ -99,7 +94,7 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
     }
     if (given.before.empty() && !options.request && given.has_refinement_options) {
         throw InputError(
-            "verify: --levels, --scheme, --closure and --seed require a selection, as in --all "
+            "verify: --levels, --scheme and --seed require a selection, as in --all "
             "--levels 2");
     }
     if (given.fast && given.min_dihedral) {

@@ -1,5 +1,7 @@
 #include "info/print_certificate.hpp"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "info/table.hpp"
@@ -11,6 +13,18 @@ namespace {
 using verify::CertifiedCell;
 using verify::ShapeBounds;
 using verify::ShapeCertificate;
+
+/// Formats a bound with six digits, rounded outward: down, or up for an upper bound. A relative
+/// difference that the error of the bound explains is ignored.
+std::string shown_bound(double bound, bool is_upper) {
+    constexpr double slack = 10 * verify::relative_error_of_bounds;
+    if (bound == 0) return shown(bound);
+    const double inner = is_upper ? bound * (1 - slack) : bound * (1 + slack);
+    const double unit = std::pow(10, std::floor(std::log10(bound)) - 5);
+    return shown((is_upper ? std::ceil(inner / unit) : std::floor(inner / unit)) * unit);
+}
+std::string shown_lower(double bound) { return shown_bound(bound, false); }
+std::string shown_upper(double bound) { return shown_bound(bound, true); }
 
 quality::Histogram histogram_of(const ShapeCertificate& certificate) {
     const auto& counts = certificate.dihedral_histogram;
@@ -42,9 +56,10 @@ void add_sets(Table& table, const ShapeCertificate& found) {
 
 void add_bounds(Table& table, const ShapeBounds& bounds) {
     table.heading("Proved bounds", "minimum", "maximum");
-    table.row("dihedral angle, degrees", shown(bounds.min_dihedral), shown(bounds.max_dihedral));
-    table.row("eta (regular: 1)", shown(bounds.min_eta));
-    table.row("solid angle, sr", shown(bounds.min_solid));
+    table.row("dihedral angle, degrees", shown_lower(bounds.min_dihedral),
+              shown_upper(bounds.max_dihedral));
+    table.row("eta (regular: 1)", shown_lower(bounds.min_eta));
+    table.row("solid angle, sr", shown_lower(bounds.min_solid));
 }
 
 void add_worst(Table& table, const ShapeCertificate& found, std::uint32_t index_base) {
@@ -54,7 +69,7 @@ void add_worst(Table& table, const ShapeCertificate& found, std::uint32_t index_
         const verify::CellCertificate& of_cell = cell.certificate;
         const std::string generations = std::to_string(of_cell.generations);
         table.row(fmt::format("cell {}", cell.cell + index_base),
-                  shown(of_cell.bounds.min_dihedral), shown(of_cell.shapes),
+                  shown_lower(of_cell.bounds.min_dihedral), shown(of_cell.shapes),
                   of_cell.is_closed ? generations : "open at " + generations);
         table.row(fmt::format("  at {}, {}, {}", shown(x), shown(y), shown(z)));
     }
@@ -90,12 +105,14 @@ void print_certificate(const ShapeCertificate& certificate, const std::string& p
     add_worst(table, certificate, index_base);
     table.histogram("Least angle of a cell, degrees", histogram_of(certificate));
     print_text(std::move(table).take());
-    const std::string until = certificate.is_closed()
-                                  ? "at any level of any regular refinement"
-                                  : fmt::format("to generation {} of regular refinement",
-                                                *certificate.holds_to_generation);
-    print("\n{}: dihedral angles are {:.6g} to {:.6g} degrees\n{}\n", path,
-          certificate.bounds.min_dihedral, certificate.bounds.max_dihedral, until);
+    const std::string until =
+        certificate.is_closed()
+            ? "at any level of any regular refinement, up to the rounding of midpoints"
+            : fmt::format("to generation {} of regular refinement; --limit can close more sets",
+                          *certificate.holds_to_generation);
+    print("\n{}: dihedral angles are {} to {} degrees\n{}\n", path,
+          shown_lower(certificate.bounds.min_dihedral),
+          shown_upper(certificate.bounds.max_dihedral), until);
 }
 
 void print_certificate_json(const ShapeCertificate& certificate, std::uint32_t index_base) {

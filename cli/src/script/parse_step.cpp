@@ -69,6 +69,7 @@ Step parse_refine(std::vector<std::string> options) {
     LineCommand command("refine");
     RefineStep step;
     add_refinement_options(command, step.typed, "");
+    add_closure_option(command, step.typed);
     parse_words(command, std::move(options));
     step.selection = parse_selection(step.typed.selection);
     step.scheme = parse_scheme(step.typed);

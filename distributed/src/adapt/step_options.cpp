@@ -56,7 +56,8 @@ void check_closure(const AdaptiveMesh::State& state, const StepOptions& options)
     const bool has_steps = !state.mesh.level_begin.empty() || !state.forgotten.empty();
     if (!has_steps || state.mesh.closure == options.closure) return;
     throw InputError(fmt::format(
-        "the mesh was refined with the {} closure; it cannot be refined with the {} closure",
+        "the mesh was refined with the {} closure, and this step has the {} closure: repeat the "
+        "step with the closure of the mesh",
         word_of(state.mesh.closure), word_of(options.closure)));
 }
 

@@ -81,6 +81,32 @@ void keep_by_closure(const std::vector<Pull>& pulls, Reasons& reasons) {
     }
 }
 
+/// Applies rule (c) once; returns whether it keeps any further vertex. Children follow the cells
+/// from which they were created.
+bool keep_by_children(const Lineage& lineage, const std::vector<CutCell>& cut, Reasons& reasons) {
+    const auto midpoints_of = [&](const CellVertices& cell, auto&& visit) {
+        for (const auto& [i, j] : cell_edges) {
+            const std::uint32_t midpoint = lineage.midpoints.find(cell[i], cell[j]);
+            if (midpoint != EdgeTable::absent) visit(VertexIndex{midpoint});
+        }
+    };
+    bool changed = false;
+    for (auto child = cut.rbegin(); child != cut.rend(); ++child) {
+        if (child->parent == no_parent) continue;
+        VertexIndex kept = VertexIndex::none();
+        midpoints_of(child->vertices, [&](VertexIndex v) {
+            if (reasons[v].why != Why::none) kept = v;
+        });
+        if (kept.is_none()) continue;
+        midpoints_of(cut[child->parent].vertices, [&](VertexIndex v) {
+            if (reasons[v].why != Why::none) return;
+            reasons[v] = {Why::child, child->vertices, kept};
+            changed = true;
+        });
+    }
+    return changed;
+}
+
 std::vector<char> marked_cells(const Lineage& lineage, const Mesh& input,
                                const std::vector<PresentCell>& present,
                                const CoarseningRequest& request) {
@@ -113,14 +139,17 @@ VertexSet kept_set(const Reasons& reasons) {
 
 }  // namespace
 
-Reasons keep_reasons(const Lineage& lineage, const std::vector<PresentCell>& present,
-                     const std::vector<char>& may_coarsen) {
+Reasons keep_reasons(const Lineage& lineage, const Generations& cells,
+                     const std::vector<char>& may_coarsen, Closure closure) {
     Reasons reasons(lineage.points.size());
     for (VertexIndex v{0}; v < reasons.end_index(); ++v) {
         if (lineage.step[v] == 0) reasons[v].why = Why::input;
     }
-    keep_by_cells(lineage, present, may_coarsen, reasons);
-    keep_by_closure(pulls_between(lineage, present), reasons);
+    keep_by_cells(lineage, cells.present, may_coarsen, reasons);
+    const std::vector<Pull> pulls = pulls_between(lineage, cells.present);
+    do {
+        keep_by_closure(pulls, reasons);
+    } while (closure == Closure::regular && keep_by_children(lineage, cells.cut, reasons));
     return reasons;
 }
 
@@ -132,7 +161,7 @@ Remainder remainder_of(const Lineage& lineage, const Mesh& input,
     Remainder rest{Reasons(lineage.points.size(), {Why::input, {}, {}}), lineage.cells};
     for (int level = 0; level < request.levels; ++level) {
         const auto may_coarsen = marked_cells(lineage, input, rest.cells.present, request);
-        Reasons reasons = keep_reasons(lineage, rest.cells.present, may_coarsen);
+        Reasons reasons = keep_reasons(lineage, rest.cells, may_coarsen, request.closure);
         const VertexSet stay = kept_set(reasons);
         const bool all_stay = stay == kept_set(rest.reasons);
         rest.reasons = std::move(reasons);

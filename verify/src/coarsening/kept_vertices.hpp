@@ -18,6 +18,7 @@ struct Reason {
         cut,      ///< it and a vertex of a later step belong to `cell`
         closure,  ///< the same step created `vertex`, which is kept, on another edge of a face, and
                   ///< this vertex is the midpoint of the face's longest edge
+        child,  ///< it halves an edge of a cell, `vertex` one of the child `cell`; regular closure
     };
     Why why = Why::none;
     CellVertices cell{};
@@ -26,7 +27,7 @@ struct Reason {
 using Reasons = IndexVector<VertexIndex, Reason>;
 
 /// Returns which vertices of a mesh are kept if the cells marked in `may_coarsen` may be coarsened
-/// by one step each. `present` are the cells created from some of the vertices of the lineage.
+/// by one step each. `cells` are created from some of the vertices of the lineage.
 ///
 /// The rules refer to the meshes before each step; this function derives them from the present
 /// cells alone. Every cell created by a step has a vertex of this step.
@@ -40,8 +41,8 @@ using Reasons = IndexVector<VertexIndex, Reason>;
 ///    midpoints of one step were created on edges of one cell. If these edges share a corner, they
 ///    lie in one of its faces, and one of them is the longest edge there: midpoints of other edges
 ///    of a face are not joined.
-[[nodiscard]] Reasons keep_reasons(const Lineage& lineage, const std::vector<PresentCell>& present,
-                                   const std::vector<char>& may_coarsen);
+[[nodiscard]] Reasons keep_reasons(const Lineage& lineage, const Generations& cells,
+                                   const std::vector<char>& may_coarsen, Closure closure);
 
 /// The result after all levels of the request.
 struct Remainder {

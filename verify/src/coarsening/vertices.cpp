@@ -56,6 +56,12 @@ void report_removed(VertexIndex v, const Reason& reason, Findings& findings) {
                     "kept: it bisects the longest edge of a face, and the second vertex, "
                     "which is kept, another edge";
                 break;
+            case Why::child:
+                description.entities.push_back(entity(reason.cell, Which::before));
+                expected =
+                    "kept: it bisects an edge of the cell from which this cell was made, which "
+                    "stays bisected (regular closure)";
+                break;
             default: expected = "kept: no level could remove it"; break;
         }
         return description;

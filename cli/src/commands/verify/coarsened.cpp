@@ -13,7 +13,8 @@ verify::Verdict judge_coarsened(const Coarsened& asked, const Mesh& after, const
                                 const verify::VerifyOptions& options, JudgedFiles& judged) {
     const Checkpoint before = read_checkpoint(asked.before);
     check_regions(asked.typed.selection, before.input.regions, ProcessGroup::alone());
-    verify::CoarseningRequest request{asked.selection, asked.typed.outside, asked.typed.levels};
+    verify::CoarseningRequest request{asked.selection, asked.typed.outside, asked.typed.levels,
+                                      before.facts.closure};
     complete_selection(request.may_coarsen, asked.typed.selection,
                        {before.input.index_base, before.facts.cells_now,
                         SharedGroupNames(before.facts.group_names)});

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <octetra/core/closure.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/verify/verdict.hpp>
@@ -19,6 +20,7 @@ struct CoarseningRequest {
     bool outside = false;  ///< select the cells that `may_coarsen` does not mark instead
     /// The criteria are applied to the coarser mesh each time, until nothing changes.
     int levels = 1;
+    Closure closure = Closure::longest_edge;  ///< of the steps
 };
 
 /// For each step and each cell before it, the edges that the step bisected: six bits, in the order
@@ -32,7 +34,9 @@ using StepCuts = std::vector<std::vector<std::uint8_t>>;
 ///  - the vertices are exactly those of the mesh before that the rules of coarsening keep, applied
 ///    `levels` times. A vertex is kept if it belongs to a cell that must not be coarsened, or to a
 ///    cell that has a vertex of a later step (a); and if it is the midpoint of the longest edge of
-///    a face another edge of which has a midpoint, of the same step, that is kept (b);
+///    a face another edge of which has a midpoint, of the same step, that is kept (b); and, with
+///    Closure::regular, if it is the midpoint of an edge of a cell, and a midpoint of an edge of a
+///    child of this cell is kept (c);
 ///  - each cell is a cell of the mesh before, or a union of cells into which one step, or at most
 ///    as many steps as there are levels, divided it;
 ///  - each cell is the one that longest-edge bisection creates from the edges whose midpoints are

@@ -61,7 +61,10 @@ Json json(const CheckpointFacts& facts) {
                           {"on", field.on == FieldOn::vertices ? "vertices" : "cells"},
                           {"components", field.components}});
     }
-    Json out{{"steps", std::move(steps)}, {"fields", std::move(fields)}};
+    const bool is_regular = facts.closure == Closure::regular;
+    Json out{{"steps", std::move(steps)},
+             {"closure", is_regular ? "regular" : "longest-edge"},
+             {"fields", std::move(fields)}};
     if (facts.state) {
         out["state"] = {
             {"time", facts.state->time}, {"step", facts.state->step}, {"text", facts.state->text}};

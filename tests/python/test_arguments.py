@@ -197,7 +197,7 @@ def test_a_mesh_has_no_constructor():
 
 
 def test_functions_have_signatures_and_no_name_of_cpp(mesh):
-    words = "marks=None, *, cells=None, scheme='8t', max_cells=None)"
+    words = "marks=None, *, cells=None, scheme='8t', closure='longest-edge', max_cells=None)"
     assert str(inspect.signature(octetra.Mesh.refine)) == f"(self, {words}"
     assert str(inspect.signature(mesh.refine)) == f"({words}"
     assert str(inspect.signature(octetra.read)) == "(path, comm=None, *, partition='rcb')"

@@ -33,6 +33,24 @@ def test_bytes_are_those_of_the_command(folder, cube):
     assert same(folder / "coarse.mesh", folder / "expected_coarse.mesh")
 
 
+def test_the_regular_closure_is_that_of_the_command_and_carries_values(folder, cube):
+    mesh = octetra.read(cube)
+    x = mesh.points.copy()
+    for radius in (0.5, 0.3):
+        step = mesh.refine(octetra.mark.sphere(mesh, (0.1, 0.1, 0.1), radius), closure="regular")
+        x = step.transfer_vertices(x)
+        assert np.array_equal(x, mesh.points)
+        assert (step.vertices_before == -1).sum() == len(step.new_vertex_ends)
+        assert len(step.cells.parents) == len(mesh.cells)
+    mesh.save(folder / "regular.octetra")
+    for radius, source, target in ((0.5, cube, "one.octetra"), (0.3, folder / "one.octetra", "two.octetra")):
+        command("refine", source, "--sphere", f"0.1,0.1,0.1,{radius}", "--closure", "regular", "-o", folder / target)
+    assert same(folder / "regular.octetra", folder / "two.octetra")
+    for wrong in ({}, {"closure": "regular", "scheme": "4t"}, {"closure": "regularly"}):
+        with pytest.raises(octetra.InputError, match="closure"):
+            mesh.refine(octetra.mark.sphere(mesh, (0, 0, 0), 1), **wrong)
+
+
 @pytest.mark.parametrize("criterion, option", [
     (lambda m: octetra.mark.box(m, (0, 0, 0), (0.5, 0.5, 0.5)), ("--box", "0,0,0,0.5,0.5,0.5")),
     (lambda m: octetra.mark.random(m, 0.2, 5), ("--random", "0.2", "--seed", "5")),

@@ -13,7 +13,7 @@ inline int number_in_environment(const char* name) {
     return text == nullptr ? 0 : std::atoi(text);
 }
 
-/// Whether this rank is the one that the variable names. Requires that MPI is started.
+/// Returns whether this rank is the one that the variable names. Requires that MPI is started.
 inline bool is_rank_in_environment(const char* name) {
     int rank = 0;
     PMPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -46,9 +46,9 @@ inline Outcome run_program(const std::vector<std::string>& command,
             content_of(caught / "out"), content_of(caught / "err")};
 }
 
-/// Whether this status of mpirun reports that a signal ended a rank. Open MPI adds 128 to the
-/// number of the signal; MPICH returns the number, or that of SIGKILL, by which it ends the other
-/// ranks.
+/// Returns whether this status of mpirun reports that a signal ended a rank. Open MPI adds 128 to
+/// the number of the signal; MPICH returns the number, or that of SIGKILL, by which it ends the
+/// other ranks.
 inline bool reports_signal(int status, int signal) {
     return status == 128 + signal || status == signal || status == SIGKILL;
 }

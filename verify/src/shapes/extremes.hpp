@@ -24,7 +24,7 @@ struct RoundedPiece {
 /// s. Dot products follow from squared lengths l, as 2 e.a = l(e) + l(a) - l(e - a). If K is the
 /// value of 4 c with all subtractions replaced by additions, the computed 4 c has an error of at
 /// most 20 u K, and the cotangent one of at most 26 u K / 4 s, for which 32 u K / 4 s is used.
-/// Where that exceeds 2^-40 (1 + |cot|), and the angle may be the extreme one, 4 c is computed from
+/// If that exceeds 2^-40 (1 + |cot|), and the angle may be the extreme one, 4 c is computed from
 /// integers: the cotangent then has a relative error of at most 16 u. The solid angle at a corner
 /// with the vectors a, b, c is 2 atan(6V / D), D = |a||b||c| + (a.b)|c| + (a.c)|b| + (b.c)|a|; the
 /// error of D is bounded in the same way, and no integers are used.

@@ -48,8 +48,8 @@ struct CellCertificate {
     std::uint32_t generations = 0;
     bool is_closed = false;
     bool has_ties = false;  ///< whether equal lengths were ordered by coordinates
-    /// Whether unequal lengths differed by less than one part in 2^30: then rounding may decide
-    /// which is longer, and the set has the shapes of both decisions.
+    /// States whether unequal lengths differed by less than one part in 2^30. Rounding may then
+    /// decide which is longer, and the set has the shapes of both decisions.
     bool has_near_ties = false;
     ShapeBounds bounds;
 

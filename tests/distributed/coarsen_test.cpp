@@ -22,7 +22,7 @@ public:
                                              parse_partition("random:" + std::to_string(seed))))} {}
 
     void refine(const Selection& selection, Scheme scheme, const Tuning& tuning) {
-        engine_.refine(selection, scheme, tuning);
+        engine_.refine(selection, {.scheme = scheme}, tuning);
         reference_.refine(selection, scheme);
     }
     void coarsen(const Selection& selection, const Tuning& tuning) {

@@ -15,15 +15,17 @@ public:
     explicit Loop(DistributedMesh input) : state_(AdaptiveMesh::State::make(std::move(input))) {}
 
     /// Collective. Makes one step.
-    Adaptation refine(const Selection& selection, Scheme scheme, const Tuning& tuning) {
-        return state_->refine([&] { return mark_cells(mesh(), selection, false); },
-                              {.scheme = scheme}, tuning);
+    Adaptation refine(const Selection& selection, const StepOptions& options,
+                      const Tuning& tuning) {
+        return state_->refine([&] { return mark_cells(mesh(), selection, false); }, options,
+                              tuning);
     }
     /// Collective.
     Adaptation coarsen(const Selection& selection, const Tuning& tuning) {
         return coarsen_state(
             *state_, [&] { return mark_cells(mesh(), selection, false); }, tuning);
     }
+    [[nodiscard]] const AdaptiveMesh::State& state() const { return *state_; }
     [[nodiscard]] DistributedMesh& mesh() { return state_->mesh; }
     [[nodiscard]] const DistributedMesh& mesh() const { return state_->mesh; }
 

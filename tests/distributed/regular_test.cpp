@@ -1,3 +1,5 @@
+#include <array>
+#include <cstdint>
 #include <random>
 #include <utility>
 
@@ -7,6 +9,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/partition.hpp>
 
+#include "distributed/loop.hpp"
 #include "distributed/marked_mesh.hpp"
 #include "distributed/observed_mesh.hpp"
 #include "distributed/reference_steps.hpp"
@@ -138,6 +141,86 @@ TEST_P(RegularMesh, ContinuesFromACheckpointAsWithoutIt) {
         EXPECT_TRUE(loaded.collect() == mesh.collect());
         EXPECT_THROW((void)loaded.refine({.all = true}, StepOptions{}), InputError);
     }
+}
+
+/// The kind of each level is determined by this process's own part.
+Tuning random_tuning(std::mt19937_64& random) {
+    constexpr std::array<double, 4> fractions{0, 0.0625, 0.5, 10};
+    return {.incremental_below =
+                fractions[(random() + static_cast<std::uint64_t>(test::world().rank())) % 4]};
+}
+
+/// Everything that a failing step must restore.
+struct Lists {
+    std::vector<Point> points;
+    std::vector<double> attributes;
+    std::vector<VertexIndex> level_begin;
+    std::vector<EdgeVertices> midpoint_to_edge;
+    std::vector<CellVertices> cells;
+    std::vector<FacetVertices> facets;
+    std::vector<EdgeVertices> edges;
+    std::vector<std::vector<EdgeVertices>> shared_edges;
+    std::vector<std::vector<FacetVertices>> shared_faces;
+    std::vector<GlobalVertex> numbers;
+    Sharing<VertexIndex> sharing;
+    TransitionCells::Kinds kinds;
+    Mesh whole;
+
+    explicit Lists(const test::Loop& loop)
+        : points(loop.mesh().points),
+          attributes(loop.mesh().point_attributes),
+          level_begin(loop.mesh().level_begin),
+          midpoint_to_edge(loop.mesh().midpoint_to_edge),
+          cells(loop.mesh().cells),
+          facets(loop.mesh().facets),
+          edges(loop.mesh().edges),
+          numbers(loop.state().numbers.of_vertex),
+          sharing(loop.state().sharing),
+          kinds(loop.state().transition_kinds),
+          whole(collect_copy(loop.mesh()).mesh) {
+        for (const Interface& interface : loop.mesh().interfaces) {
+            shared_edges.push_back(interface.edges);
+            shared_faces.push_back(interface.faces);
+        }
+    }
+    friend bool operator==(const Lists&, const Lists&) = default;
+};
+
+TEST_P(RegularMesh, IsTheReferencesWithEveryKindOfLevelAndAsItWasAfterFailingSteps) {
+    test::ReferenceSteps reference(input);
+    test::Loop loop(
+        distribute(test::world(), input,
+                   partition_cells(input, test::world().size(), parse_partition("random:3"))));
+    std::uint64_t failures = 0;
+    for (int k = 0; k < 8; ++k) {
+        const Tuning tuning = random_tuning(random);
+        const std::uint64_t count = test::world().sum(loop.mesh().cells.size());
+        const bool refines = k < 2 || (random() % 5 != 0 && count < 2000);
+        const Selection selection = cells_at_random(refines ? random_share() / 2 : 0.9, random());
+        if (refines) {
+            const Lists before(loop);
+            const StepOptions few{.closure = Closure::regular, .max_cells = count + random() % 400};
+            try {
+                (void)loop.refine(selection, few, random_tuning(random));
+            } catch (const InputError&) {
+                ++failures;
+                EXPECT_TRUE(before == Lists(loop)) << "step " << k;
+                (void)loop.refine(selection, regular, tuning);
+            }
+            reference.refine_regularly(selection);
+        } else {
+            (void)loop.coarsen(selection, tuning);
+            reference.coarsen(selection, Closure::regular);
+        }
+        const Mesh found = collect_copy(loop.mesh()).mesh;
+        if (test::world().is_first()) {
+            ASSERT_TRUE(found == reference.mesh()) << "step " << k;
+        }
+        const CanonicalNumbers numbers = canonical_numbers(loop.mesh());
+        EXPECT_EQ(loop.state().numbers.of_vertex, numbers.of_vertex);
+        EXPECT_EQ(loop.state().numbers.vertex_count, numbers.vertex_count);
+    }
+    EXPECT_GT(failures, 1U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RegularMesh,

@@ -63,7 +63,7 @@ TEST_P(Replay, OfTheStepsExtractedFromAPartReproducesItBitByBit) {
         Selection selection;
         selection.random = RandomShare{random() % 3 == 0 ? 0.2 : 0.004, random()};
         const Tuning tuning{.incremental_below = random() % 3 == 0 ? 0.0 : 1.0};
-        loop.refine(selection, schemes[random() % 3], tuning);
+        loop.refine(selection, {.scheme = schemes[random() % 3]}, tuning);
         const CanonicalOrder order(loop.mesh());
         expect_equal(with_interfaces(input_of(loop.mesh()), input), input);
         const std::vector<CutRuns> steps = steps_of(loop.mesh());

@@ -46,6 +46,11 @@ struct Lists {
     std::unique_ptr<IncrementalCoarsening> incremental;
     std::unique_ptr<CanonicalOrder> order;  ///< of the mesh, if lists are rebuilt
 
+    /// Returns the marked cells by their canonical numbers.
+    [[nodiscard]] MarkedCells make_canonical(DistributedMesh& mesh, MarkedCells marked) {
+        order = std::make_unique<CanonicalOrder>(mesh);
+        return renumbered(std::move(marked), order->cells_before());
+    }
     void plan(DistributedMesh& mesh, const KeptVertices& kept, const Tuning& tuning,
               CoarserPart& part) {
         if (mesh.adjacency && mesh.adjacency->has_index) {
@@ -54,7 +59,7 @@ struct Lists {
         if (incremental) {
             incremental->plan(kept, part);
         } else {
-            order = std::make_unique<CanonicalOrder>(mesh);
+            if (order == nullptr) order = std::make_unique<CanonicalOrder>(mesh);
             coarsen_lists(mesh, *order, kept, part);
         }
     }
@@ -83,16 +88,17 @@ std::optional<Coarsening> plan_coarsening(AdaptiveMesh::State& state,
                                           const Tuning& tuning) {
     DistributedMesh& mesh = state.mesh;
     const Communicator& processes = mesh.processes;
-    const MarkedCells marked = mark();
-    // Regular refinement leaves the mesh in canonical order, which its coarsening requires.
-    const bool is_incremental =
-        mesh.closure != Closure::regular && suits_incremental_level(mesh, marked, tuning);
+    MarkedCells marked = mark();
+    Coarsening coarsening;
+    // Families are found in canonical order.
+    const bool is_regular = mesh.closure == Closure::regular;
+    if (is_regular) marked = coarsening.lists.make_canonical(mesh, std::move(marked));
+    const bool is_incremental = !is_regular && suits_incremental_level(mesh, marked, tuning);
     Adjacency* const adjacency = is_incremental ? &Adjacency::of(mesh) : nullptr;
     const KeptVertices kept = find_kept_vertices(mesh, state.sharing, marked, adjacency);
     const auto removed_count = static_cast<std::uint64_t>(std::ranges::count(kept, 0));
     if (processes.max(removed_count) == 0) return std::nullopt;
 
-    Coarsening coarsening;
     CoarserPart& part = coarsening.part;
     Adaptation& adaptation = coarsening.adaptation;
     part = coarser_vertices(mesh, kept);
@@ -129,6 +135,7 @@ Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedC
     commit_numbers(numbers, part, state.numbers);
     adaptation.vertices_before = std::move(part.vertices_before);
     state.sharing = std::move(sharing);
+    state.transition_kinds.clear();
     state.step_count -= static_cast<int>(levels_before - mesh.level_begin.size());
     return std::move(adaptation);
 }

@@ -55,7 +55,8 @@ Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
     const int level = step_count + 1;
     const Phase phase(mesh.processes, "level", level);
     // Processes with different options refuse them in either branch.
-    if (options.closure == Closure::regular) return refine_state_regularly(*this, mark, options);
+    if (options.closure == Closure::regular)
+        return refine_state_regularly(*this, mark, options, tuning);
     std::optional<NumberedLevel> numbered;
     mesh.processes.transaction([&] {
         check_same(mesh.processes, options);

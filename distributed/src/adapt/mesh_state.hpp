@@ -10,6 +10,7 @@
 #include "history/history.hpp"
 #include "level/marked_cells.hpp"
 #include "level/planned_level.hpp"
+#include "level/transition_cells.hpp"
 #include "numbering/canonical_numbers.hpp"
 
 namespace octetra::distributed {
@@ -22,6 +23,9 @@ struct AdaptiveMesh::State {
     Sharing<VertexIndex> sharing;
     int step_count = 0;                  ///< including forgotten steps
     std::uint64_t accumulated_idle = 0;  ///< see uneven_level()
+    /// The kinds of the cells if the mesh was refined with Closure::regular, unless they are
+    /// unknown: then empty.
+    TransitionCells::Kinds transition_kinds;
     /// The history of this process's part before each time that cells became roots.
     std::vector<History> forgotten;
 
@@ -57,7 +61,8 @@ struct AdaptiveMesh::State {
 /// Collective. Performs a step with Closure::regular.
 [[nodiscard]] Adaptation refine_state_regularly(AdaptiveMesh::State& state,
                                                 const std::function<MarkedCells()>& mark,
-                                                const StepOptions& options);
+                                                const StepOptions& options,
+                                                const Tuning& tuning = {});
 
 /// Collective. The same, preceded by a migration of roots if the processes have too different
 /// numbers of cells before the step.

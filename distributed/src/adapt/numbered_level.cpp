@@ -13,8 +13,7 @@ namespace {
 /// Describes a level; to be called before it is committed.
 Adaptation adaptation_of(PlannedLevel& plan, const DistributedMesh& mesh) {
     const std::size_t before = mesh.level_begin.back().value();
-    const auto new_ends =
-        std::span(mesh.midpoint_to_edge).subspan(before - mesh.input_vertices.size());
+    const auto new_ends = midpoint_ends(mesh, mesh.level_begin.size() - 1);
     std::vector<EdgeVertices> copied;
     reserve_in_huge_pages(copied, new_ends.size());
     copied.assign(new_ends.begin(), new_ends.end());
@@ -38,7 +37,9 @@ NumberedLevel::NumberedLevel(AdaptiveMesh::State& state, PlannedLevel plan)
     const DistributedMesh& mesh = state.mesh;
     {
         const Phase phase(mesh.processes, "number vertices");
-        state.numbers.number_midpoints(mesh, mesh.points.end_index(), state.sharing.shared());
+        state.numbers.number_midpoints(mesh.processes,
+                                       midpoint_ends(mesh, mesh.level_begin.size() - 1),
+                                       state.sharing.shared());
     }
     {
         const Phase phase(mesh.processes, "sharers");

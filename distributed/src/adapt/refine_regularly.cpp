@@ -15,31 +15,6 @@
 namespace octetra::distributed {
 namespace {
 
-/// Returns the map from the entities after a step to those before it. `before` has their numbers
-/// outside the canonical order, or is empty if these are the same.
-template <class I>
-EntityTransfer transfer_of(Descent descent, const std::vector<I>& before, std::size_t count) {
-    if (!before.empty()) {
-        for (std::uint32_t& number : descent.before) number = before[number].value();
-    }
-    return EntityTransfer::of_parents(count, std::move(descent.before),
-                                      std::move(descent.halvings));
-}
-
-Adaptation adaptation_of(RegularStep& step, const CanonicalOrder& order,
-                         const DistributedMesh& before) {
-    return {
-        .changed = true,
-        .cells = transfer_of(std::move(step.cells), order.cells_before(), before.cells.size()),
-        .facets = transfer_of(std::move(step.facets), order.facets_before(), before.facets.size()),
-        .edges = transfer_of(std::move(step.edges), order.edges_before(), before.edges.size()),
-        .vertex_count_before = before.points.size(),
-        .new_vertex_ends = std::move(step.new_vertex_ends),
-        .vertices_before = std::move(step.vertices_before),
-        .removed_vertices = {},
-        .synchronisation = step.counts};
-}
-
 /// Lists all cells if all are marked.
 MarkedCells listed(MarkedCells marked, std::size_t count) {
     if (!marked.all) return marked;
@@ -52,32 +27,20 @@ MarkedCells listed(MarkedCells marked, std::size_t count) {
 
 Adaptation refine_state_regularly(AdaptiveMesh::State& state,
                                   const std::function<MarkedCells()>& mark,
-                                  const StepOptions& options) {
+                                  const StepOptions& options, const Tuning& tuning) {
     DistributedMesh& mesh = state.mesh;
-    std::optional<CanonicalOrder> order;
-    std::unique_ptr<AdaptiveMesh::State> after;
-    Adaptation adaptation;
-    mesh.processes.transaction([&] {
+    std::optional<RegularStep> step;
+    const bool changes_anything = mesh.processes.transaction([&] {
         check_same(mesh.processes, options);
         check_closure(state, options);
-        MarkedCells marked = listed(mark(), mesh.cells.size());
+        const MarkedCells marked = listed(mark(), mesh.cells.size());
         if (!marked.edges.empty()) {
             throw InputError("edges cannot be marked with the regular closure, only cells");
         }
-        order.emplace(mesh);
-        marked = renumbered(std::move(marked), order->cells_before());
-        RegularStep step = regular_step(mesh, marked, level_options(options));
-        if (!step.changes_anything) return;
-        adaptation = adaptation_of(step, *order, mesh);
-        step.mesh.closure = Closure::regular;
-        after = state_of(step.mesh);
+        return step.emplace(state, level_options(options), tuning).plan(marked);
     });
-    if (after == nullptr) return unchanged(mesh);
-    order->keep();
-    order.reset();
-    after->accumulated_idle = state.accumulated_idle;
-    state.replace_by(std::move(*after), nullptr);
-    return adaptation;
+    if (!changes_anything) return unchanged(mesh);
+    return step->commit();
 }
 
 EvenStep refine_state_evenly_and_regularly(AdaptiveMesh::State& state,

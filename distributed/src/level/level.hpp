@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <octetra/distributed/entity_transfer.hpp>
 #include <octetra/distributed/refine.hpp>
 
+#include "level/made_change.hpp"
 #include "level/marked_cells.hpp"
 #include "level/marked_edges.hpp"
 #include "level/rounding_failure.hpp"
@@ -63,6 +65,9 @@ public:
 
     /// Replaces the mesh by the result of the level, once all steps are done.
     virtual void commit() noexcept = 0;
+    /// The same, so that it can be reverted as long as no later change remains. Throws before
+    /// anything changes.
+    [[nodiscard]] virtual std::unique_ptr<MadeChange> commit_reversibly() = 0;
 
     /// Returns the number of cells that were processed, not counting tests by the selection.
     [[nodiscard]] virtual std::size_t cells_touched() const = 0;

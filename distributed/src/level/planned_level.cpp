@@ -83,8 +83,8 @@ MarkedCells renumbered(MarkedCells marked, const std::vector<CellIndex>& before)
 
 void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuning& tuning,
                  MarkedCells marked, PlannedLevel& plan, const TransitionCells* transition) {
-    if (transition == nullptr && suits_incremental_level(mesh, marked, tuning, options.is_last)) {
-        auto level = std::make_unique<IncrementalLevel>(mesh);
+    if (suits_incremental_level(mesh, marked, tuning, options.is_last)) {
+        auto level = std::make_unique<IncrementalLevel>(mesh, transition);
         const Phase phase(mesh.processes, "select");
         level->mark(marked, options.scheme);
         plan.level = std::move(level);
@@ -95,7 +95,8 @@ void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuni
         plan.order = std::make_unique<CanonicalOrder>(mesh);
         marked = renumbered(std::move(marked), plan.order->cells_before());
     }
-    auto level = std::make_unique<FullSweepLevel>(mesh, marked, tuning.local_below, transition);
+    const double local_below = transition == nullptr ? tuning.local_below : 0;
+    auto level = std::make_unique<FullSweepLevel>(mesh, marked, local_below, transition);
     const Phase phase(mesh.processes, "select");
     level->mark(marked, options.scheme);
     plan.level = std::move(level);

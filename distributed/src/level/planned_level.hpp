@@ -30,7 +30,7 @@ struct PlannedLevel {
 };
 
 /// Collective. Marks and closes a level; nothing is bisected yet. Throws as plan_level() does. With
-/// `transition`, the level is a full sweep, and the mesh must be in canonical order.
+/// `transition`, marks complete families; see TransitionCells::close().
 [[nodiscard]] PlannedLevel close_level(DistributedMesh& mesh,
                                        const std::function<MarkedCells()>& mark_cells,
                                        const RefineOptions& options, const Tuning& tuning,

@@ -6,6 +6,8 @@
 
 #include <octetra/core/edge_order.hpp>
 
+#include "level/incremental/adjacency.hpp"
+
 namespace octetra::distributed {
 namespace {
 
@@ -42,14 +44,17 @@ std::uint32_t TransitionCells::generation_of(CellIndex cell) const {
     return generation;
 }
 
-TransitionCells::Family TransitionCells::family_of(CellIndex cell) const {
-    Family family{cell, CellIndex{cell.value() + std::size_t{1}}};
-    while (kinds_[family.begin] == Kind::further_sibling) {
-        family.begin = CellIndex{family.begin.value() - std::size_t{1}};
+CellRun TransitionCells::family_of(CellIndex cell) const {
+    const Adjacency* const unordered = mesh_->adjacency.get();
+    while (kinds_[cell] == Kind::further_sibling) {
+        cell = unordered != nullptr ? unordered->cells.previous(cell)
+                                    : CellIndex{cell.value() - std::size_t{1}};
     }
-    while (family.end < kinds_.end_index() && kinds_[family.end] == Kind::further_sibling) {
-        ++family.end;
-    }
+    CellRun family;
+    do {
+        family.append(cell);
+        cell = next_cell(*mesh_, cell);
+    } while (!cell.is_none() && kinds_[cell] == Kind::further_sibling);
     return family;
 }
 
@@ -73,6 +78,14 @@ EdgeMask TransitionCells::closure(CellIndex cell, EdgeMask marked) const {
     const bool has_face = std::popcount(edges) == 3;  // of three corners of the parent
     if (!has_face || (edges & marked) == 0) return marked;
     return static_cast<EdgeMask>(marked | longest_of(edges, mesh_->cells[cell], mesh_->points));
+}
+
+void TransitionCells::set_run(const CellRun& run) {
+    const bool is_regular = run.size() == 8;
+    for (const CellIndex c : run) {
+        const Kind of_family = c == run[0] ? Kind::first_sibling : Kind::further_sibling;
+        kinds_[c] = is_regular ? Kind::regular : of_family;
+    }
 }
 
 void TransitionCells::add_midpoints(std::uint32_t generation) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
@@ -9,13 +11,27 @@
 
 namespace octetra::distributed {
 
+/// At most eight cells that are consecutive in canonical order.
+class CellRun {
+public:
+    void append(CellIndex cell) { cells_[count_++] = cell; }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] CellIndex operator[](std::size_t k) const { return cells_[k]; }
+    [[nodiscard]] const CellIndex* begin() const { return cells_.data(); }
+    [[nodiscard]] const CellIndex* end() const { return cells_.data() + count_; }
+
+private:
+    std::array<CellIndex, 8> cells_;
+    std::size_t count_ = 0;
+};
+
 /// The cells of a part that regular refinement does not bisect by themselves: the children of a
 /// cell of which one to five edges are bisected. See Closure::regular. Vertices and cells of the
 /// part have generations: that of an input vertex is 0, that of a midpoint is one more than that of
 /// the regular cells that have its edge, and that of a cell is the greatest of its vertices.
 class TransitionCells {
 public:
-    /// Siblings are contiguous.
+    /// Siblings are consecutive in canonical order.
     enum class Kind : std::uint8_t { regular, first_sibling, further_sibling };
     using Kinds = IndexVector<CellIndex, Kind>;
     using Generations = IndexVector<VertexIndex, std::uint32_t>;
@@ -28,13 +44,8 @@ public:
     [[nodiscard]] std::uint32_t generation_of(VertexIndex v) const { return generations_[v]; }
     [[nodiscard]] std::uint32_t generation_of(CellIndex cell) const;
 
-    /// The cells begin .. end-1.
-    struct Family {
-        CellIndex begin;
-        CellIndex end;
-    };
-    /// Returns the siblings of a transition cell, itself included.
-    [[nodiscard]] Family family_of(CellIndex cell) const;
+    /// Returns the siblings of a transition cell, itself included, in canonical order.
+    [[nodiscard]] CellRun family_of(CellIndex cell) const;
 
     /// Returns the edges of a transition cell that are edges of its parent; they are not bisected.
     [[nodiscard]] EdgeMask edges_of_parent(CellIndex cell) const;
@@ -48,10 +59,20 @@ public:
     /// face, if any, that is a face of the parent and has a marked edge.
     [[nodiscard]] EdgeMask closure(CellIndex cell, EdgeMask marked) const;
 
+    /// Calls mark(cell, edges) for what the marked edges of a transition cell require: the edges of
+    /// closure(), and all edges of the parent if the cell has a marked edge of its own generation.
+    void close(CellIndex cell, EdgeMask marked, auto&& mark) const {
+        mark(cell, closure(cell, marked));
+        if ((marked & ~unsigned{edges_of_parent(cell)}) == 0) return;
+        for (const CellIndex sibling : family_of(cell)) mark(sibling, edges_of_parent(sibling));
+    }
+
     /// Updates the generations after a level that has bisected edges of this generation.
     void add_midpoints(std::uint32_t generation);
-    /// Replaces the kinds after a level.
-    void set_kinds(Kinds kinds) { kinds_ = std::move(kinds); }
+    /// The cells of a run have replaced a regular cell or a family: eight are regular, fewer are a
+    /// family.
+    void set_run(const CellRun& run);
+    [[nodiscard]] Kinds& kinds() { return kinds_; }
     [[nodiscard]] const Generations& generations() const { return generations_; }
 
 private:

@@ -13,6 +13,11 @@ void CellBlocks::append(const DistributedMesh& mesh, CellIndex begin) {
     }
 }
 
+void CellBlocks::add_replaced(const DistributedMesh& mesh, CellIndex cell) {
+    Box& box = boxes_[cell.value() / size];
+    for (const VertexIndex v : mesh.cells[cell]) extend(box, mesh.points[v]);
+}
+
 void CellBlocks::renew(const DistributedMesh& mesh, std::size_t block) {
     boxes_[block] = empty_box;
     extend_by(mesh, block, CellIndex{block * size});

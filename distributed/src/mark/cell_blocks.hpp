@@ -27,6 +27,8 @@ public:
     /// Adds the mesh's cells from `begin` on.
     void append(const DistributedMesh& mesh, CellIndex begin);
 
+    /// A cell was replaced by one that need not lie inside it.
+    void add_replaced(const DistributedMesh& mesh, CellIndex cell);
     /// The mesh has fewer cells.
     void truncate(std::size_t cell_count) { boxes_.resize((cell_count + size - 1) / size); }
     /// Recomputes the box of a block from its current cells.

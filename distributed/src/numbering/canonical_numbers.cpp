@@ -29,20 +29,28 @@ std::vector<VertexIndex> shared_vertices_of(const DistributedMesh& mesh,
 
 }  // namespace
 
-void CanonicalNumbers::number_midpoints(const DistributedMesh& mesh, VertexIndex end,
+void CanonicalNumbers::number_midpoints(const Communicator& processes,
+                                        std::span<const EdgeVertices> ends,
                                         std::span<const VertexIndex> shared_vertices) {
-    const VertexIndex begin = of_vertex.end_index();
-    if (mesh.processes.size() == 1) {  // vertices are in canonical order
-        make_room(of_vertex, end.value());
-        for (VertexIndex v = begin; v < end; ++v) of_vertex.push_back(GlobalVertex{v.value()});
+    if (processes.size() == 1) {  // vertices are in canonical order
+        make_room(of_vertex, of_vertex.size() + ends.size());
+        for (std::size_t k = 0; k < ends.size(); ++k) {
+            of_vertex.push_back(GlobalVertex{of_vertex.size()});
+        }
         vertex_count = of_vertex.size();
         return;
     }
-    const auto ends =
-        std::span(mesh.midpoint_to_edge)
-            .subspan(begin.value() - mesh.input_vertices.size(), end.value() - begin.value());
-    append_ranked<2>(of_vertex, mesh.processes, ends, of_vertex, shared_vertices, vertex_count,
+    append_ranked<2>(of_vertex, processes, ends, of_vertex, shared_vertices, vertex_count,
                      vertex_count);
+}
+
+std::span<const EdgeVertices> midpoint_ends(const DistributedMesh& mesh, std::size_t level) {
+    const std::size_t input_count = mesh.input_vertices.size();
+    const std::size_t begin = mesh.level_begin[level].value() - input_count;
+    const std::size_t end = level + 1 < mesh.level_begin.size()
+                                ? mesh.level_begin[level + 1].value() - input_count
+                                : mesh.midpoint_to_edge.size();
+    return std::span(mesh.midpoint_to_edge).subspan(begin, end - begin);
 }
 
 void CanonicalNumbers::forget_from(VertexIndex end, std::uint64_t count) noexcept {
@@ -65,10 +73,7 @@ CanonicalNumbers canonical_numbers(const DistributedMesh& mesh) {
         numbers.of_vertex.reserve(mesh.points.size());
         // All processes have the same number of levels.
         for (std::size_t level = 0; level < mesh.level_begin.size(); ++level) {
-            const VertexIndex end = level + 1 < mesh.level_begin.size()
-                                        ? mesh.level_begin[level + 1]
-                                        : mesh.points.end_index();
-            numbers.number_midpoints(mesh, end, shared);
+            numbers.number_midpoints(mesh.processes, midpoint_ends(mesh, level), shared);
         }
         return numbers;
     });

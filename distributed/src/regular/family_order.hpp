@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
+#include <utility>
+#include <vector>
 
+#include "level/made_change.hpp"
 #include "level/transition_cells.hpp"
 #include "pattern/patterns.hpp"
 #include "regular/descent.hpp"
@@ -16,27 +18,37 @@ struct DividedCell {
     EdgeMask edges = 0;                    ///< the bisected ones
 
     /// `pieces` are all descendants of the cell, which has this generation.
-    DividedCell(const DistributedMesh& mesh, const TransitionCells& cells,
-                TransitionCells::Family pieces, std::uint32_t generation);
+    DividedCell(const DistributedMesh& mesh, const TransitionCells& cells, const CellRun& pieces,
+                std::uint32_t generation);
 
     [[nodiscard]] CellVertices corners() const {
         return {vertices[0], vertices[1], vertices[2], vertices[3]};
     }
 };
 
-/// The cells before a level.
-struct BisectedCells {
-    std::span<const std::uint32_t> first;  ///< the first child of each; then the number of children
-    std::span<const EdgeMask> marked;      ///< the bisected edges of each
-    std::uint32_t generation = 0;          ///< of these edges
-};
+/// Puts families into canonical order after a level. If more edges of the parent of transition
+/// cells have been bisected, its descendants are the pieces into which all its bisected edges
+/// divide it, but in another order.
+class FamilyOrder final : public MadeChange {
+public:
+    explicit FamilyOrder(DistributedMesh& mesh) : mesh_(&mesh) {}
+    ~FamilyOrder() override;
+    FamilyOrder(const FamilyOrder&) = delete;
+    FamilyOrder& operator=(const FamilyOrder&) = delete;
+    FamilyOrder(FamilyOrder&&) = delete;
+    FamilyOrder& operator=(FamilyOrder&&) = delete;
 
-/// Returns the kinds of the cells after a level. If more edges of the parent of transition cells
-/// have been bisected, its descendants are the pieces into which all its bisected edges divide it,
-/// but in another order; they are put into canonical order, in `mesh` and in `cells`. `before` has
-/// the kinds before the level and all generations.
-[[nodiscard]] TransitionCells::Kinds order_families(DistributedMesh& mesh, Descent& cells,
-                                                    const TransitionCells& before,
-                                                    const BisectedCells& level);
+    /// `pieces` are all descendants of a cell of this generation, the only ones that change in the
+    /// mesh and in `descent`.
+    void restore(const TransitionCells& cells, const CellRun& pieces, std::uint32_t generation,
+                 Descent& descent);
+    void keep() noexcept override { before_.clear(); }
+
+private:
+    void replace(CellIndex cell, const CellVertices& vertices);
+
+    DistributedMesh* mesh_;
+    std::vector<std::pair<CellIndex, CellVertices>> before_;  ///< the replaced cells
+};
 
 }  // namespace octetra::distributed

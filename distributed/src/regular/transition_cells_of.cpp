@@ -1,10 +1,12 @@
 #include "regular/transition_cells_of.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/huge_pages.hpp>
 
 #include "history/families.hpp"
 #include "history/vertex_levels.hpp"
@@ -43,12 +45,21 @@ TransitionCells::Kinds kinds_of(const DistributedMesh& mesh, const VertexLevels&
 
 }  // namespace
 
-TransitionCells transition_cells_of(const DistributedMesh& mesh) {
+TransitionCells::Generations generations_of(const DistributedMesh& mesh) {
     const VertexLevels levels(mesh);
     TransitionCells::Generations generations;
-    generations.reserve(mesh.points.size());
-    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) generations.append(levels.of(v));
-    return {mesh, kinds_of(mesh, levels), std::move(generations)};
+    reserve_with_room(generations, mesh.points.size());
+    generations.resize(mesh.points.size(), 0);
+    for (std::uint32_t level = 1; level <= levels.count(); ++level) {
+        const VertexIndex end = std::min(levels.end(level), mesh.points.end_index());
+        std::fill(generations.begin() + levels.begin(level).value(),
+                  generations.begin() + end.value(), level);
+    }
+    return generations;
+}
+
+TransitionCells transition_cells_of(const DistributedMesh& mesh) {
+    return {mesh, kinds_of(mesh, VertexLevels(mesh)), generations_of(mesh)};
 }
 
 }  // namespace octetra::distributed

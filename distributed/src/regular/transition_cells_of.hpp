@@ -9,4 +9,7 @@ namespace octetra::distributed {
 /// Throws InputError if the mesh was refined otherwise. Not collective.
 [[nodiscard]] TransitionCells transition_cells_of(const DistributedMesh& mesh);
 
+/// Returns the generation of each vertex.
+[[nodiscard]] TransitionCells::Generations generations_of(const DistributedMesh& mesh);
+
 }  // namespace octetra::distributed

@@ -78,11 +78,18 @@ EdgeMask FullSweepClosure::marked_of(CellIndex cell) const {
 
 void FullSweepClosure::close(CellIndex cell) {
     const EdgeMask mask = marked_of(cell);
-    if (is_all_or_none(mask)) return;
-    const bool is_transition = transition_ != nullptr && transition_->contains(cell);
-    const EdgeMask closed =
-        is_transition ? transition_->closure(cell, mask) : table_->closure(orders_->of(cell), mask);
-    const auto missing = static_cast<EdgeMask>(closed & ~unsigned{mask});
+    if (transition_ != nullptr && transition_->contains(cell)) {
+        if (mask != 0) {
+            transition_->close(cell, mask, [&](CellIndex c, EdgeMask edges) { mark(c, edges); });
+        }
+    } else if (!is_all_or_none(mask)) {
+        mark(cell, table_->closure(orders_->of(cell), mask));
+    }
+}
+
+/// Marks edges of a cell.
+void FullSweepClosure::mark(CellIndex cell, EdgeMask edges) {
+    const auto missing = static_cast<EdgeMask>(edges & ~unsigned{marked_of(cell)});
     for (std::size_t e = 0; missing >> e != 0; ++e) {
         if ((missing >> e & 1U) == 0) continue;
         mark(numbering_->edges_of(cell)[e]);

@@ -23,6 +23,7 @@ namespace octetra::distributed {
 class FullSweepClosure final : public MarkedEdges {
 public:
     /// Keeps references to all arguments. `transition` may be null: there are no such cells.
+    /// Otherwise the edges of all cells must be numbered.
     FullSweepClosure(LocalEdgeSet& edges, CellOrders& orders,
                      const std::vector<Interface>& interfaces, const TransitionCells* transition);
 
@@ -52,6 +53,7 @@ private:
     void set_mark(EdgeIndex edge);
     void notify_sharers(EdgeIndex edge);
     void close(CellIndex cell);
+    void mark(CellIndex cell, EdgeMask edges);
     void drain_near();
     void widen();
     [[nodiscard]] std::vector<EdgeVertices> ends_of_marked() const;

@@ -179,7 +179,7 @@ void FullSweepLevel::mark(CellIndex cell, EdgeMask mask) {
 }
 
 void FullSweepLevel::bisect_edges() {
-    appended_.emplace(*mesh_);
+    appended_ = std::make_unique<AppendedMidpoints>(*mesh_);
     midpoints_ = distributed::bisect_edges(*mesh_, *numbering_, closure_);
 }
 
@@ -222,19 +222,19 @@ MarkedCells FullSweepLevel::closed_marks() {
 
 RoundingFailure FullSweepLevel::bisect_cells(std::size_t cell_count) {
     return CellBisection(*mesh_, *numbering_, orders_, marked_, midpoints_)
-        .run(cell_count, cells_.entities, cells_.first);
+        .run(cell_count, lists_.cells.entities, lists_.cells.first);
 }
 
 void FullSweepLevel::bisect_tagged() {
     const DistributedMesh& mesh = *mesh_;
-    facets_ = replaced_by_children(
+    lists_.facets = replaced_by_children(
         mesh.facets, mesh.facet_ancestors, [&](const FacetVertices& facet, auto& all) {
             const BisectedTriangle bisected =
                 bisect_triangle(facet, midpoints_of(facet, *numbering_, midpoints_), mesh.points);
             std::copy_n(bisected.pieces.begin(), bisected.piece_count, std::back_inserter(all));
             return division_of(bisected);
         });
-    tagged_edges_ = replaced_by_children(
+    lists_.edges = replaced_by_children(
         mesh.edges, mesh.edge_ancestors, [&](const EdgeVertices& edge, auto& all) {
             // The order of the halves depends on the order of the ends in the list.
             const VertexIndex midpoint = midpoints_[numbering_->find(edge[0], edge[1])];
@@ -246,17 +246,17 @@ void FullSweepLevel::bisect_tagged() {
 }
 
 void FullSweepLevel::bisect_interfaces() {
-    interfaces_ = mesh_->interfaces;
-    distributed::bisect_interfaces(interfaces_, mesh_->points, *numbering_, midpoints_);
+    lists_.interfaces = mesh_->interfaces;
+    distributed::bisect_interfaces(lists_.interfaces, mesh_->points, *numbering_, midpoints_);
 }
 
 // The first half of a bisected edge replaces it; see bisect_interfaces().
 std::vector<std::vector<VertexIndex>> FullSweepLevel::shared_midpoints() const {
     const VertexIndex first_midpoint = mesh_->level_begin.back();
-    std::vector<std::vector<VertexIndex>> midpoints(interfaces_.size());
-    for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+    std::vector<std::vector<VertexIndex>> midpoints(lists_.interfaces.size());
+    for (std::size_t i = 0; i < lists_.interfaces.size(); ++i) {
         for (std::size_t k = 0; k < mesh_->interfaces[i].edges.size(); ++k) {
-            const VertexIndex end = interfaces_[i].edges[k][1];
+            const VertexIndex end = lists_.interfaces[i].edges[k][1];
             if (end >= first_midpoint) midpoints[i].push_back(end);
         }
     }
@@ -277,16 +277,58 @@ EntityTransfer FullSweepLevel::changes_of_cells() {
 
 ListChanges FullSweepLevel::changes() {
     return {changes_of_cells(),
-            EntityTransfer::of_all(std::move(facets_.divisions), triangle_divisions),
-            EntityTransfer::of_all(std::move(tagged_edges_.divisions), edge_divisions)};
+            EntityTransfer::of_all(std::move(lists_.facets.divisions), triangle_divisions),
+            EntityTransfer::of_all(std::move(lists_.edges.divisions), edge_divisions)};
+}
+
+void FullSweepLevel::Lists::swap(DistributedMesh& mesh) noexcept {
+    cells.swap(mesh.cells, mesh.cell_ancestors);
+    facets.swap(mesh.facets, mesh.facet_ancestors);
+    edges.swap(mesh.edges, mesh.edge_ancestors);
+    mesh.interfaces.swap(interfaces);
 }
 
 void FullSweepLevel::commit() noexcept {
-    cells_.commit(mesh_->cells, mesh_->cell_ancestors);
-    facets_.commit(mesh_->facets, mesh_->facet_ancestors);
-    tagged_edges_.commit(mesh_->edges, mesh_->edge_ancestors);
-    mesh_->interfaces = std::move(interfaces_);
+    lists_.swap(*mesh_);
+    lists_ = {};
     appended_->keep();
+}
+
+/// Has the lists before the level until it is kept.
+class FullSweepLevel::MadeLevel final : public MadeChange {
+public:
+    explicit MadeLevel(DistributedMesh& mesh) : mesh_(&mesh) {}
+    ~MadeLevel() override {
+        if (appended_ == nullptr) return;
+        mesh_->adjacency.reset();  // a later level may have created it
+        lists_.swap(*mesh_);
+    }
+    MadeLevel(const MadeLevel&) = delete;
+    MadeLevel& operator=(const MadeLevel&) = delete;
+    MadeLevel(MadeLevel&&) = delete;
+    MadeLevel& operator=(MadeLevel&&) = delete;
+
+    void make(Lists&& lists, std::unique_ptr<AppendedMidpoints> appended) noexcept {
+        appended_ = std::move(appended);
+        lists_ = std::move(lists);
+        lists_.swap(*mesh_);
+    }
+    void keep() noexcept override {
+        appended_->keep();
+        appended_.reset();
+        lists_ = {};
+    }
+
+private:
+    DistributedMesh* mesh_;
+    std::unique_ptr<AppendedMidpoints> appended_;
+    Lists lists_;
+};
+
+std::unique_ptr<MadeChange> FullSweepLevel::commit_reversibly() {
+    auto made = std::make_unique<MadeLevel>(*mesh_);
+    made->make(std::move(lists_), std::move(appended_));
+    return made;
 }
 
 }  // namespace octetra::distributed

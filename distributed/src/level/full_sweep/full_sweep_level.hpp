@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -35,6 +35,7 @@ public:
     [[nodiscard]] std::vector<std::vector<VertexIndex>> shared_midpoints() const override;
     [[nodiscard]] ListChanges changes() override;
     void commit() noexcept override;
+    [[nodiscard]] std::unique_ptr<MadeChange> commit_reversibly() override;
     [[nodiscard]] std::size_t cells_touched() const override { return orders_.end_index().value(); }
 
 private:
@@ -46,11 +47,21 @@ private:
         /// The division of each entity before the level; empty for cells.
         std::vector<std::uint8_t> divisions;
 
-        void commit(List& list, AncestorMap& ancestors) {
-            list = std::move(entities);
-            ancestors.first = std::move(first);
+        void swap(List& list, AncestorMap& ancestors) noexcept {
+            list.swap(entities);
+            ancestors.first.swap(first);
         }
     };
+    /// All lists that a level replaces.
+    struct Lists {
+        NewList<IndexVector<CellIndex, CellVertices>> cells;
+        NewList<IndexVector<FacetIndex, FacetVertices>> facets;
+        NewList<IndexVector<EdgeIndex, EdgeVertices>> edges;  ///< tagged ones
+        std::vector<Interface> interfaces;
+
+        void swap(DistributedMesh& mesh) noexcept;
+    };
+    class MadeLevel;
     template <class List>
     static NewList<List> replaced_by_children(const List& list, const AncestorMap& ancestors,
                                               auto&& append_children);
@@ -65,12 +76,8 @@ private:
     FullSweepClosure closure_;
     IndexVector<CellIndex, EdgeMask> marked_;        ///< of each cell, once computed
     IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each edge, or none()
-    std::optional<AppendedMidpoints> appended_;      ///< once the midpoints are appended
-
-    NewList<IndexVector<CellIndex, CellVertices>> cells_;
-    NewList<IndexVector<FacetIndex, FacetVertices>> facets_;
-    NewList<IndexVector<EdgeIndex, EdgeVertices>> tagged_edges_;
-    std::vector<Interface> interfaces_;
+    std::unique_ptr<AppendedMidpoints> appended_;    ///< once the midpoints are appended
+    Lists lists_;
 };
 
 }  // namespace octetra::distributed

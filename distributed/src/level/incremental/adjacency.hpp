@@ -45,6 +45,14 @@ struct Adjacency {
     bool has_index = true;
 };
 
+/// Returns the next cell in canonical order, or none() after the last one. If the mesh is
+/// unordered, the last descendant of each root has no next one.
+[[nodiscard]] inline CellIndex next_cell(const DistributedMesh& mesh, CellIndex cell) {
+    if (mesh.adjacency != nullptr) return mesh.adjacency->cells.next(cell);
+    const CellIndex next{cell.value() + std::size_t{1}};
+    return next < mesh.cells.end_index() ? next : CellIndex::none();
+}
+
 /// Puts a mesh into canonical order during its lifetime; the destructor restores the previous order
 /// unless keep() was called. Not collective.
 class CanonicalOrder {

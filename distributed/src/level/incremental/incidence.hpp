@@ -90,6 +90,23 @@ public:
         heads_.resize(before.size());
     }
 
+    static constexpr std::uint32_t none = VertexIndex::none_value;
+    struct Head {
+        std::uint32_t first = none;
+        std::uint32_t count = 0;
+    };
+    using Heads = IndexVector<VertexIndex, Head>;
+    /// Returns the lists of entities by new numbers of all vertices, for set_heads().
+    [[nodiscard]] Heads renumbered(const IndexVector<VertexIndex, VertexIndex>& after) const {
+        Heads heads;
+        if (heads_.empty()) return heads;
+        reserve_with_room(heads, heads_.size());
+        heads.resize(heads_.size());
+        for (VertexIndex v{0}; v < heads_.end_index(); ++v) heads[after[v]] = heads_[v];
+        return heads;
+    }
+    void set_heads(Heads&& heads) noexcept { heads_ = std::move(heads); }
+
     /// Calls visit(i) for each entity that has the vertex.
     void for_each_at(VertexIndex v, auto&& visit) const {
         if (heads_.empty()) return;
@@ -113,12 +130,6 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t none = VertexIndex::none_value;
-
-    struct Head {
-        std::uint32_t first = none;
-        std::uint32_t count = 0;
-    };
     /// Element N i + k is for position k of entity i.
     struct Link {
         std::uint32_t previous = none;
@@ -150,7 +161,7 @@ private:
         --head.count;
     }
 
-    IndexVector<VertexIndex, Head> heads_;
+    Heads heads_;
     std::vector<Link> links_;
 };
 

@@ -7,8 +7,12 @@
 
 namespace octetra::distributed {
 
-IncrementalClosure::IncrementalClosure(const DistributedMesh& mesh, Adjacency& adjacency)
-    : mesh_(&mesh), adjacency_(&adjacency), outboxes_(mesh.interfaces.size()) {}
+IncrementalClosure::IncrementalClosure(const DistributedMesh& mesh, Adjacency& adjacency,
+                                       const TransitionCells* transition)
+    : mesh_(&mesh),
+      adjacency_(&adjacency),
+      transition_(transition),
+      outboxes_(mesh.interfaces.size()) {}
 
 IncrementalClosure::~IncrementalClosure() {
     for (const Note& note : notes_) adjacency_->cell_to_note[note.cell] = CellIndex::none_value;
@@ -34,10 +38,16 @@ void IncrementalClosure::mark_from(std::size_t interface, std::uint32_t position
 
 void IncrementalClosure::drain() {
     while (!queue_.empty()) {
-        Note& note = notes_[queue_.back()];
+        Note& queued = notes_[queue_.back()];
         queue_.pop_back();
-        note.queued = false;
-        mark(note.cell, table_->closure(note.order, note.marked));
+        queued.queued = false;
+        const Note note = queued;  // marking adds notes
+        if (transition_ != nullptr && transition_->contains(note.cell)) {
+            transition_->close(note.cell, note.marked,
+                               [&](CellIndex cell, EdgeMask edges) { mark(cell, edges); });
+        } else {
+            mark(note.cell, table_->closure(note.order, note.marked));
+        }
     }
 }
 

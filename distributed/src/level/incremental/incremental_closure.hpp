@@ -8,6 +8,7 @@
 
 #include "level/incremental/adjacency.hpp"
 #include "level/marked_edges.hpp"
+#include "level/transition_cells.hpp"
 #include "pattern/patterns.hpp"
 
 namespace octetra::distributed {
@@ -25,7 +26,9 @@ public:
         std::array<EdgeIndex, 6> edges{};  ///< numbers of the marked ones, none() for others
     };
 
-    IncrementalClosure(const DistributedMesh& mesh, Adjacency& adjacency);
+    /// Keeps references to all arguments. `transition` may be null: there are no such cells.
+    IncrementalClosure(const DistributedMesh& mesh, Adjacency& adjacency,
+                       const TransitionCells* transition);
     ~IncrementalClosure() override;
     IncrementalClosure(const IncrementalClosure&) = delete;
     IncrementalClosure& operator=(const IncrementalClosure&) = delete;
@@ -54,6 +57,7 @@ private:
 
     const DistributedMesh* mesh_;
     Adjacency* adjacency_;
+    const TransitionCells* transition_;
     const PatternTable* table_ = &PatternTable::get();
     IndexVector<EdgeIndex, EdgeVertices> edges_;
     std::vector<Note> notes_;

@@ -59,8 +59,8 @@ std::size_t count_of_cuts(const auto& triangle) {
 
 }  // namespace
 
-IncrementalLevel::IncrementalLevel(DistributedMesh& mesh)
-    : mesh_(&mesh), adjacency_(&Adjacency::of(mesh)), closure_(mesh, *adjacency_) {}
+IncrementalLevel::IncrementalLevel(DistributedMesh& mesh, const TransitionCells* transition)
+    : mesh_(&mesh), adjacency_(&Adjacency::of(mesh)), closure_(mesh, *adjacency_, transition) {}
 
 void IncrementalLevel::mark(const MarkedCells& marked, Scheme scheme) {
     for (std::size_t k = 0; k < marked.cells.size(); ++k) {
@@ -71,14 +71,14 @@ void IncrementalLevel::mark(const MarkedCells& marked, Scheme scheme) {
 }
 
 IncrementalLevel::~IncrementalLevel() {
-    if (!appended_) return;
+    if (appended_ == nullptr) return;
     appended_.reset();
     adjacency_->set_vertex_count(mesh_->points.size());
 }
 
 void IncrementalLevel::bisect_edges() {
     const auto& edges = closure_.edges();
-    appended_.emplace(*mesh_);
+    appended_ = std::make_unique<AppendedMidpoints>(*mesh_);
     midpoints_.resize(edges.size());
     const bool has_markers = !mesh_->input_vertex_markers.empty();
     for (const auto& [ends, e] : sorted_by_ends(edges)) {
@@ -268,12 +268,16 @@ ListChanges IncrementalLevel::changes() {
 }
 
 void IncrementalLevel::commit() noexcept {
+    change_lists();
+    appended_->keep();
+    appended_.reset();
+}
+
+void IncrementalLevel::change_lists() noexcept {
     commit_cells();
     commit_tagged();
     commit_shared_edges();
     commit_shared_faces();
-    appended_->keep();
-    appended_.reset();
 }
 
 void IncrementalLevel::commit_cells() {

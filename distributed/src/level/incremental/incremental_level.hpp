@@ -3,7 +3,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "level/incremental/adjacency.hpp"
@@ -18,7 +18,8 @@ namespace octetra::distributed {
 /// once the mesh has its Adjacency, and leaves the mesh unordered.
 class IncrementalLevel final : public Level {
 public:
-    explicit IncrementalLevel(DistributedMesh& mesh);
+    /// `transition` may be null: there are no such cells.
+    explicit IncrementalLevel(DistributedMesh& mesh, const TransitionCells* transition = nullptr);
     ~IncrementalLevel() override;
     IncrementalLevel(const IncrementalLevel&) = delete;
     IncrementalLevel& operator=(const IncrementalLevel&) = delete;
@@ -38,9 +39,11 @@ public:
     [[nodiscard]] std::vector<std::vector<VertexIndex>> shared_midpoints() const override;
     [[nodiscard]] ListChanges changes() override;
     void commit() noexcept override;
+    [[nodiscard]] std::unique_ptr<MadeChange> commit_reversibly() override;
     [[nodiscard]] std::size_t cells_touched() const override { return closure_.notes().size(); }
 
 private:
+    class MadeLevel;
     /// A cell with a child that is flat or inverted.
     struct BadParent {
         CellIndex cell;
@@ -77,6 +80,7 @@ private:
     [[nodiscard]] RoundingFailure first_of(std::vector<BadParent> bad) const;
     void find_shared_cuts();
     void make_room_in_interfaces();
+    void change_lists() noexcept;
     void commit_cells();
     void commit_tagged();
     void commit_shared_edges();
@@ -86,7 +90,7 @@ private:
     Adjacency* adjacency_;
     IncrementalClosure closure_;
     IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each marked edge
-    std::optional<AppendedMidpoints> appended_;      ///< once the midpoints are appended
+    std::unique_ptr<AppendedMidpoints> appended_;    ///< once the midpoints are appended
 
     // The changes that commit() makes. Each list is ascending by the bisected entities.
     std::vector<CellIndex> new_cells_;

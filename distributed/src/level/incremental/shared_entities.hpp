@@ -33,6 +33,7 @@ public:
     SharedEntities(std::size_t vertex_count, const std::vector<Interface>& interfaces)
         : SharedEntities(vertex_count, interfaces, all_of(interfaces)) {}
 
+    [[nodiscard]] Incidence<SharedIndex, N>& incidence() { return incidence_; }
     void set_vertex_count(std::size_t count) { incidence_.set_vertex_count(count); }
     /// Reserves capacity so that append() cannot fail for added[i] entities of each interface i.
     void make_room(const std::vector<std::size_t>& added, std::vector<Interface>& interfaces) {

@@ -50,6 +50,7 @@ public:
     void make_index(std::size_t vertex_count, const List& list) {
         incidence_ = Incidence<I, N>(vertex_count, list);
     }
+    [[nodiscard]] Incidence<I, N>& incidence() { return incidence_; }
     void set_vertex_count(std::size_t count) { incidence_.set_vertex_count(count); }
     /// Reserves capacity so that replace() cannot fail for this many children beyond the first
     /// ones.
@@ -61,6 +62,8 @@ public:
 
     /// Returns the next descendant of the same root in canonical order, or none().
     [[nodiscard]] I next(I i) const { return places_[i].next; }
+    /// Returns the previous one, or none().
+    [[nodiscard]] I previous(I i) const { return places_[i].previous; }
     /// The position of its root among this process's roots.
     [[nodiscard]] std::uint32_t root_of(I i) const { return places_[i].root; }
 
@@ -78,6 +81,30 @@ public:
         }
         if (!after.is_none()) places_[after].previous = last;
         is_ordered_ = is_ordered_ && pieces.size() == 1;
+    }
+
+    /// An entity and its place in the canonical order.
+    struct Entry {
+        I i;
+        Vertices vertices{};
+        std::uint32_t root = 0;
+        I previous;
+        I next;
+    };
+    [[nodiscard]] Entry entry_of(I i, const List& list) const {
+        return {i, list[i], places_[i].root, places_[i].previous, places_[i].next};
+    }
+    /// Reverts calls of replace(): `before` has the replaced entities, in the order of these calls,
+    /// and the list had `count` entities before. There must be no index.
+    void restore(std::span<const Entry> before, std::size_t count, List& list) noexcept {
+        for (std::size_t k = before.size(); k-- > 0;) {
+            const auto& [i, vertices, root, previous, next] = before[k];
+            list[i] = vertices;
+            places_[i] = {root, previous, next};
+            if (!next.is_none()) places_[next].previous = i;
+        }
+        list.resize(count);
+        places_.resize(count);
     }
 
     // Coarsening: for each affected root, some entities are changed, superfluous ones are removed,

@@ -150,6 +150,27 @@ std::optional<bool> has_angle_less_than_half_of_all(const std::array<Point, 3>& 
     return false;
 }
 
+/// Returns whether floating point shows that all angles of a triangle are at least 30 degrees, and
+/// so at least half of the smallest angle of any triangle.
+bool has_only_wide_angles(const std::array<Point, 3>& triangle) {
+    constexpr auto is_moderate = [](double square) {
+        return square > 0x1p-400 && square < 0x1p400;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto u = between<double>(triangle[k], triangle[(k + 1) % 3]);
+        const auto v = between<double>(triangle[k], triangle[(k + 2) % 3]);
+        const double cosine = dot(u, v);
+        const double uu = dot(u, u);
+        const double vv = dot(v, v);
+        if (!is_moderate(uu) || !is_moderate(vv)) return false;  // underflow would matter
+        // Each product in `cosine` passes 6 roundings, and so the cosine is off by at most 6 *
+        // 2^-53 |u| |v|; uu * vv passes 11. Relative to uu * vv, the two sides of the comparison
+        // are off by less than 100 * 2^-53 together.
+        if (cosine > 0 && 4 * cosine * cosine > (3 - 0x1p-44) * (uu * vv)) return false;
+    }
+    return true;
+}
+
 mpq_class rational(const mpfr_t x) {
     mpz_class mantissa;
     const mpfr_exp_t exponent = mpfr_get_z_2exp(mantissa.get_mpz_t(), x);
@@ -238,6 +259,10 @@ bool AngleLimit::exceeds_dihedral(const Point& p, const Point& q, const Point& r
 bool keeps_half_of_smallest_angle(const std::array<Point, 3>& given_piece,
                                   const std::array<Point, 3>& given_whole, Arithmetic& arithmetic) {
     const auto piece = near_one(given_piece);
+    if (has_only_wide_angles(piece)) {
+        ++arithmetic.filtered;
+        return true;
+    }
     const auto whole = near_one(given_whole);
     {
         const Interval::Protector upward;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "exact/fixed_point.hpp"
+
 namespace octetra::verify::exact {
 namespace {
 
@@ -28,6 +30,19 @@ public:
         const Float fraction = std::frexp(value, &exponent);
         mpz_set_d(mantissa_, static_cast<double>(std::ldexp(fraction, bits)));
         exponent_ = value == 0 ? 0 : exponent - bits;
+    }
+    /// Sets an integer in two's complement, times a power of two.
+    void set(DeterminantSum::Limbs limbs, int exponent) {
+        const bool negative = limbs.back() >> 63U != 0;
+        std::uint64_t carry = 1;
+        for (std::uint64_t& limb : limbs) {
+            if (!negative) break;
+            limb = ~limb + carry;
+            carry = carry != 0 && limb == 0 ? 1 : 0;
+        }
+        mpz_import(mantissa_, limbs.size(), -1, sizeof(limbs[0]), 0, 0, limbs.data());
+        if (negative) mpz_neg(mantissa_, mantissa_);
+        exponent_ = exponent;
     }
     void set_sum(const Dyadic& a, const Dyadic& b, Dyadic& scratch) {
         combine(a, b, scratch, mpz_add);
@@ -133,10 +148,20 @@ struct CrossProduct {
 
 }  // namespace
 
+double largest_coordinate(std::span<const Point> points) {
+    double largest = 0;
+    for (const Point& p : points) {
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    return largest;
+}
+
 struct VolumeSum::State {
     CrossProduct base;
     Vector apex;
     Dyadic edge, term, volume, sum, scratch, difference;
+    Grid grid;
+    DeterminantSum on_grid;  ///< to be added to `sum`
 
     void compute(const std::array<Point, 4>& p) {
         base.compute({p[0], p[1], p[2]});
@@ -148,30 +173,56 @@ struct VolumeSum::State {
             volume.set_sum(volume, term, scratch);
         }
     }
+
+    /// Returns false if the corners are not on the grid.
+    bool add_on_grid(const std::array<Point, 4>& p, int sign) {
+        std::array<DeterminantSum::Corner, 4> corners;
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (!grid.convert(p[k], corners[k])) return false;
+        }
+        on_grid.add(corners[0], corners[1], corners[2], corners[3], sign);
+        return true;
+    }
+
+    /// Returns the whole sum.
+    const Dyadic& total() {
+        if (!on_grid.is_zero()) {
+            term.set(on_grid.limbs(), -3 * grid.shift());
+            sum.set_sum(sum, term, scratch);
+            on_grid.clear();
+        }
+        return sum;
+    }
 };
 
 VolumeSum::VolumeSum() : state_(std::make_unique<State>()) {}
 VolumeSum::~VolumeSum() = default;
 
-void VolumeSum::clear() { state_->sum.clear(); }
+void VolumeSum::clear(double largest) {
+    state_->sum.clear();
+    state_->on_grid.clear();
+    state_->grid = Grid(largest);
+}
 
 void VolumeSum::add(const std::array<Point, 4>& corners) {
+    if (state_->add_on_grid(corners, 1)) return;
     state_->compute(corners);
     state_->sum.set_sum(state_->sum, state_->volume, state_->scratch);
 }
 
 void VolumeSum::subtract(const std::array<Point, 4>& corners) {
+    if (state_->add_on_grid(corners, -1)) return;
     state_->compute(corners);
     state_->sum.set_difference(state_->sum, state_->volume, state_->scratch);
 }
 
 bool VolumeSum::is_within(long double bound) const {
-    return within(state_->sum, bound, state_->scratch, state_->difference);
+    return within(state_->total(), bound, state_->scratch, state_->difference);
 }
 
-double VolumeSum::rounded() const { return state_->sum.rounded(); }
+double VolumeSum::rounded() const { return state_->total().rounded(); }
 
-std::string VolumeSum::exactly() const { return state_->sum.text(); }
+std::string VolumeSum::exactly() const { return state_->total().text(); }
 
 struct NumberSum::State {
     Dyadic sum, number, scratch, difference;

@@ -2,12 +2,16 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 
 #include <octetra/core/point.hpp>
 
 /// Exact volumes and areas.
 namespace octetra::verify::exact {
+
+/// Returns the largest size of a coordinate.
+[[nodiscard]] double largest_coordinate(std::span<const Point> points);
 
 /// A sum of volumes of tetrahedra, times six, in exact arithmetic of arbitrary precision.
 class VolumeSum {
@@ -19,7 +23,9 @@ public:
     VolumeSum(VolumeSum&&) = delete;
     VolumeSum& operator=(VolumeSum&&) = delete;
 
-    void clear();
+    /// `largest` is the largest size of the coordinates to be added. Any other value makes the sum
+    /// slower, not wrong.
+    void clear(double largest = 0);
     /// Adds the signed volume.
     void add(const std::array<Point, 4>& corners);
     void subtract(const std::array<Point, 4>& corners);

@@ -24,10 +24,14 @@ typename K::Point_3 point(const Point& p) {
     return {Number(p.x), Number(p.y), Number(p.z)};
 }
 
-/// Returns nothing, and counts nothing, if intervals do not decide. Precondition: rounding is
-/// upward.
+/// Returns nothing, and counts nothing, if neither floating point nor intervals decide.
+/// Precondition: rounding is upward.
 std::optional<int> certain_orientation(const Point& a, const Point& b, const Point& c,
                                        const Point& d, Arithmetic& arithmetic) {
+    if (const auto sign = clear_orientation(a, b, c, d)) {
+        ++arithmetic.filtered;
+        return sign;
+    }
     const auto sign = Intervals::Orientation_3()(point<Intervals>(a), point<Intervals>(b),
                                                  point<Intervals>(c), point<Intervals>(d));
     if (!CGAL::is_certain(sign)) return std::nullopt;
@@ -45,6 +49,10 @@ int rational_orientation(const Point& a, const Point& b, const Point& c, const P
 /// Precondition: the points are near 1.
 int orientation_near_one(const Point& a, const Point& b, const Point& c, const Point& d,
                          Arithmetic& arithmetic) {
+    if (const auto sign = clear_orientation(a, b, c, d)) {
+        ++arithmetic.filtered;
+        return *sign;
+    }
     {
         const CGAL::Protect_FPU_rounding<true> upward;
         if (const auto sign = certain_orientation(a, b, c, d, arithmetic)) return *sign;
@@ -108,26 +116,38 @@ bool are_separated_in_projection(const std::array<Point, 2>& segment,
     return false;
 }
 
-int faces_touched_near_one(std::array<Point, 4> corners, const Point& p, Arithmetic& arithmetic) {
-    // Replaces each corner in turn by the point.
-    const auto with_p_as_corner = [&](std::size_t k, auto&& judge) {
-        const Point corner = corners[k];
-        corners[k] = p;
-        const auto sign = judge(corners[0], corners[1], corners[2], corners[3], arithmetic);
-        corners[k] = corner;
-        return sign;
-    };
+/// Returns judge(a, b, c, d) of the corners, with p in the place of corner k.
+auto with_p_as_corner(const std::array<Point, 4>& corners, std::size_t k, const Point& p,
+                      auto&& judge) {
+    std::array<Point, 4> at = corners;
+    at[k] = p;
+    return judge(at[0], at[1], at[2], at[3]);
+}
+
+int faces_touched_near_one(const std::array<Point, 4>& corners, const Point& p,
+                           Arithmetic& arithmetic) {
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto sign = with_p_as_corner(corners, k, p, clear_orientation);
+        if (sign != -1) continue;
+        ++arithmetic.filtered;
+        return -1;
+    }
     std::array<std::optional<int>, 4> signs;
     {
         const CGAL::Protect_FPU_rounding<true> upward;
         for (std::size_t k = 0; k < 4; ++k) {
-            signs[k] = with_p_as_corner(k, certain_orientation);
+            signs[k] = with_p_as_corner(corners, k, p, [&](const auto&... points) {
+                return certain_orientation(points..., arithmetic);
+            });
             if (signs[k] == -1) return -1;
         }
     }
     int touched = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-        const int sign = signs[k] ? *signs[k] : with_p_as_corner(k, rational_orientation);
+        const int sign =
+            signs[k] ? *signs[k] : with_p_as_corner(corners, k, p, [&](const auto&... points) {
+                return rational_orientation(points..., arithmetic);
+            });
         if (sign < 0) return -1;
         if (sign == 0) ++touched;
     }
@@ -138,6 +158,11 @@ bool meet_near_one(const std::array<Point, 2>& segment, const std::array<Point, 
                    Arithmetic& arithmetic) {
     const auto& [p, q] = segment;
     const auto& [a, b, c] = triangle;
+    if (const auto side = clear_orientation(a, b, c, p);
+        side && side == clear_orientation(a, b, c, q)) {
+        ++arithmetic.filtered;
+        return false;
+    }
     std::optional<int> clear_side_p;
     std::optional<int> clear_side_q;
     {
@@ -172,6 +197,34 @@ bool meet_near_one(const std::array<Point, 2>& segment, const std::array<Point, 
 }
 
 }  // namespace
+
+std::optional<int> clear_orientation(const Point& a, const Point& b, const Point& c,
+                                     const Point& d) {
+    const Point u{b.x - a.x, b.y - a.y, b.z - a.z};
+    const Point v{c.x - a.x, c.y - a.y, c.z - a.z};
+    const Point w{d.x - a.x, d.y - a.y, d.z - a.z};
+    const double vw = v.x * w.y;
+    const double wv = w.x * v.y;
+    const double wu = w.x * u.y;
+    const double uw = u.x * w.y;
+    const double uv = u.x * v.y;
+    const double vu = v.x * u.y;
+    const double value = u.z * (vw - wv) + v.z * (wu - uw) + w.z * (uv - vu);
+    // The determinant is the sum of six products of three differences. Each product passes at most
+    // eight roundings: three of differences, two of products, and three of sums. A rounding, in any
+    // mode, is off by at most 2^-52 of its result, or by 2^-1074 if a product underflows; the
+    // latter is then multiplied by an entry of the third column. The bound is twice as large, which
+    // covers the products of errors and its own rounding, also down. If anything overflows, the
+    // bound is infinite or NaN, and so it decides nothing.
+    const double sizes = std::abs(u.z) * (std::abs(vw) + std::abs(wv)) +
+                         std::abs(v.z) * (std::abs(wu) + std::abs(uw)) +
+                         std::abs(w.z) * (std::abs(uv) + std::abs(vu));
+    const double bound =
+        0x1p-48 * sizes + 0x1p-1020 * (1 + std::abs(u.z) + std::abs(v.z) + std::abs(w.z));
+    if (value > bound) return 1;
+    if (value < -bound) return -1;
+    return std::nullopt;
+}
 
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d,
                 Arithmetic& arithmetic) {

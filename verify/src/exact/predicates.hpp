@@ -1,13 +1,20 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <octetra/core/point.hpp>
 #include <octetra/verify/verdict.hpp>
 
-/// Exact predicates: evaluated with intervals first, and with rational numbers if these do not
-/// decide. Each decision is counted as one or the other. CGAL is used only here and in angles.cpp.
+/// Exact predicates: evaluated in floating point with an error bound, then with intervals, and with
+/// rational numbers if these do not decide. Each decision is counted as one or the other. CGAL is
+/// used only here and in angles.cpp.
 namespace octetra::verify::exact {
+
+/// Returns the sign of orientation() if floating point with an error bound decides it: never a
+/// wrong one, and 0 never. Valid in any rounding mode.
+[[nodiscard]] std::optional<int> clear_orientation(const Point& a, const Point& b, const Point& c,
+                                                   const Point& d);
 
 /// Sign of the volume of the tetrahedron abcd; defined as in octetra/core/orientation.hpp, but
 /// implemented independently.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -21,12 +22,19 @@ Point cross(const Point& u, const Point& v) {
 double length(const Point& u) { return std::sqrt(dot(u, u)); }
 double angle(const Point& u, const Point& v) { return std::atan2(length(cross(u, v)), dot(u, v)); }
 
-struct CellAngles {
-    double min_dihedral = 0;  ///< radians
-    double max_dihedral = 0;
-    double min_solid = 0;
-    double eta = 0;
+/// The shape of a cell, in quantities that need no transcendental functions and increase or
+/// decrease with the angles: of millions of cells, the extreme ones are converted.
+struct CellShape {
+    double most_cot = -infinity;   ///< cotangent of the smallest dihedral angle
+    double least_cot = infinity;   ///< cotangent of the largest one
+    double most_half = -infinity;  ///< cotangent of half the smallest solid angle
+    double eta_cubed = 0;
+
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
 };
+
+/// Returns the angle, from 0 to pi, with this cotangent.
+double angle_of_cot(double cot) { return std::atan2(1.0, cot); }
 
 template <std::size_t N>
 struct Normalised {
@@ -34,8 +42,8 @@ struct Normalised {
     double scale = 1;  ///< factor by which lengths were multiplied
 };
 
-/// Translates to the origin and scales to a size of about 1, so that no product over- or
-/// underflows.
+/// Translates to the origin and, unless it is between 2^-30 and 2^30, scales the size to about 1,
+/// so that no product over- or underflows.
 template <std::size_t N>
 Normalised<N> normalised(std::array<Point, N> p) {
     const auto multiply_by = [&p](double factor) {
@@ -52,13 +60,14 @@ Normalised<N> normalised(std::array<Point, N> p) {
     if (beforehand != 1) multiply_by(beforehand);
     const Point origin = p[0];
     for (Point& q : p) q = difference(q, origin);
+    if (const double size = largest(); size < 0x1p30 && size > 0x1p-30) return {p, beforehand};
     constexpr int least_exponent = -1000;
     const double factor = std::ldexp(1.0, -std::max(std::ilogb(largest()), least_exponent));
     multiply_by(factor);
     return {p, beforehand * factor};
 }
 
-CellAngles angles_of(const std::array<Point, 4>& corners) {
+CellShape shape_of(const std::array<Point, 4>& corners) {
     const std::array<Point, 4> p = normalised(corners).corners;
     std::array<Point, 4> normal;  // outward normal of the face opposite each corner
     for (std::size_t k = 0; k < 4; ++k) {
@@ -67,35 +76,52 @@ CellAngles angles_of(const std::array<Point, 4>& corners) {
         const auto& [a, b, c] = outward[k];
         normal[k] = cross(difference(p[b], p[a]), difference(p[c], p[a]));
     }
-    CellAngles result{.min_dihedral = std::numbers::pi, .max_dihedral = 0};
-    std::array<double, 4> around{};  // sum of the dihedral angles at the edges of each corner
+    CellShape shape;
     double squares = 0;
     for (std::size_t k = 0; k < 6; ++k) {
         const auto [i, j] = cell_edges[k];
         const auto [c, d] = cell_edges[5 - k];  // edge ij lies in the faces opposite c and d
-        const double dihedral = std::numbers::pi - angle(normal[c], normal[d]);
-        result.min_dihedral = std::min(result.min_dihedral, dihedral);
-        result.max_dihedral = std::max(result.max_dihedral, dihedral);
-        around[i] += dihedral;
-        around[j] += dihedral;
+        const double sine = length(cross(normal[c], normal[d]));
+        const double cosine = dot(normal[c], normal[d]);
+        // The normals enclose pi less the angle; without a direction they count as parallel.
+        const double cot = sine == 0 && cosine == 0 ? -CellShape::infinity : -cosine / sine;
+        shape.most_cot = std::max(shape.most_cot, cot);
+        shape.least_cot = std::min(shape.least_cot, cot);
         const Point edge = difference(p[i], p[j]);
         squares += dot(edge, edge);
     }
-    result.min_solid = *std::min_element(around.begin(), around.end()) - std::numbers::pi;
-    const double volume6 = dot(difference(p[3], p[0]), normal[3]) * -1;
-    result.eta = std::cbrt(432 * volume6 * volume6 / (squares * squares * squares));
-    return result;
+    const double volume6 = std::max(0.0, -dot(difference(p[3], p[0]), normal[3]));
+    for (std::size_t k = 0; k < 4; ++k) {
+        // The tangent of half the solid angle between vectors u, v, w is their determinant divided
+        // by |u| |v| |w| + (u.v) |w| + (u.w) |v| + (v.w) |u|.
+        const Point u = difference(p[(k + 1) % 4], p[k]);
+        const Point v = difference(p[(k + 2) % 4], p[k]);
+        const Point w = difference(p[(k + 3) % 4], p[k]);
+        const std::array<double, 3> lengths{length(u), length(v), length(w)};
+        const double cosine = lengths[0] * lengths[1] * lengths[2] + dot(u, v) * lengths[2] +
+                              dot(u, w) * lengths[1] + dot(v, w) * lengths[0];
+        shape.most_half = std::max(shape.most_half, cosine / volume6);
+    }
+    shape.eta_cubed = 432 * volume6 * volume6 / (squares * squares * squares);
+    return shape;
 }
 
 void for_each_positive(const JudgedMesh& judged, auto&& visit) {
     for (CellIndex c{0}; c < judged.mesh.cells.end_index(); ++c) {
         if (judged.sign[c.value()] <= 0 || !judged.owns(judged.mesh.cells[c])) continue;
-        visit(c, angles_of(judged.corners(c)));
+        visit(c, shape_of(judged.corners(c)));
     }
 }
 
 std::array<Point, 3> triangle(const FacetVertices& v, const Mesh& mesh) {
     return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
+}
+
+/// Returns whether a face of the fine mesh has the vertices of a face of the coarse one.
+bool is_undivided(const FacetVertices& fine, const FacetVertices& coarse, const Descent& descent) {
+    return std::all_of(coarse.begin(), coarse.end(), [&](VertexIndex v) {
+        return std::find(fine.begin(), fine.end(), descent.coarse_to_fine[v]) != fine.end();
+    });
 }
 
 double smallest_angle(const std::array<Point, 3>& triangle) {
@@ -128,37 +154,52 @@ double angle_slack(const std::array<Point, 3>& piece, double rounding) {
 AngleFigures measure_angles(const JudgedMesh& judged) {
     AngleFigures figures{
         .min_dihedral = 180, .max_dihedral = 0, .min_solid = 4 * std::numbers::pi, .min_eta = 1};
-    for_each_positive(judged, [&](CellIndex c, const CellAngles& angles) {
-        const double least = angles.min_dihedral * degrees_per_radian;
-        if (least < figures.min_dihedral) {
-            figures.min_dihedral = least;
-            figures.min_dihedral_at = c;
+    CellShape extremes;
+    extremes.eta_cubed = 1;
+    for_each_positive(judged, [&](CellIndex c, const CellShape& shape) {
+        if (shape.most_cot > extremes.most_cot) {
+            extremes.most_cot = shape.most_cot;
+            // Of several cells with the same number of degrees, the first is given.
+            const double least = angle_of_cot(shape.most_cot) * degrees_per_radian;
+            if (least < figures.min_dihedral) {
+                figures.min_dihedral = least;
+                figures.min_dihedral_at = c;
+            }
         }
-        figures.max_dihedral =
-            std::max(figures.max_dihedral, angles.max_dihedral * degrees_per_radian);
-        figures.min_solid = std::min(figures.min_solid, angles.min_solid);
-        figures.min_eta = std::min(figures.min_eta, angles.eta);
+        extremes.least_cot = std::min(extremes.least_cot, shape.least_cot);
+        extremes.most_half = std::max(extremes.most_half, shape.most_half);
+        extremes.eta_cubed = std::min(extremes.eta_cubed, shape.eta_cubed);
     });
+    if (extremes.least_cot == CellShape::infinity) return figures;  // no cells
+    figures.max_dihedral = angle_of_cot(extremes.least_cot) * degrees_per_radian;
+    figures.min_solid = 2 * angle_of_cot(extremes.most_half);
+    figures.min_eta = std::cbrt(extremes.eta_cubed);
     return figures;
 }
 
 std::vector<DepthFigures> measure_by_depth(const JudgedMesh& fine, const Descent& descent) {
-    std::vector<DepthFigures> by_depth(256);
-    for_each_positive(fine, [&](CellIndex c, const CellAngles& angles) {
-        DepthFigures& figures = by_depth[descent.depth[c]];
-        const double least = angles.min_dihedral * degrees_per_radian;
-        if (figures.cells++ == 0) {
-            figures.min_dihedral = least;
-            figures.min_eta = angles.eta;
-        }
-        figures.min_dihedral = std::min(figures.min_dihedral, least);
-        figures.min_eta = std::min(figures.min_eta, angles.eta);
+    struct Extremes {
+        std::uint64_t cells = 0;
+        double most_cot = -CellShape::infinity;
+        double eta_cubed = CellShape::infinity;
+    };
+    std::vector<Extremes> by_depth(256);
+    for_each_positive(fine, [&](CellIndex c, const CellShape& shape) {
+        Extremes& extremes = by_depth[descent.depth[c]];
+        ++extremes.cells;
+        extremes.most_cot = std::max(extremes.most_cot, shape.most_cot);
+        extremes.eta_cubed = std::min(extremes.eta_cubed, shape.eta_cubed);
     });
+    std::vector<DepthFigures> figures;
     for (std::size_t depth = 0; depth < by_depth.size(); ++depth) {
-        by_depth[depth].depth = static_cast<int>(depth);
+        const Extremes& extremes = by_depth[depth];
+        if (extremes.cells == 0) continue;
+        figures.push_back({.depth = static_cast<int>(depth),
+                           .cells = extremes.cells,
+                           .min_dihedral = angle_of_cot(extremes.most_cot) * degrees_per_radian,
+                           .min_eta = std::cbrt(extremes.eta_cubed)});
     }
-    std::erase_if(by_depth, [](const DepthFigures& figures) { return figures.cells == 0; });
-    return by_depth;
+    return figures;
 }
 
 std::string check_dihedral_angles(const JudgedMesh& judged, double degrees, Findings& findings) {
@@ -176,7 +217,7 @@ std::string check_dihedral_angles(const JudgedMesh& judged, double degrees, Find
         }
         if (!less) continue;
         findings.add(Code::dihedral_too_small, [&]() -> Findings::Description {
-            const double found = angles_of(p).min_dihedral * degrees_per_radian;
+            const double found = angle_of_cot(shape_of(p).most_cot) * degrees_per_radian;
             const bool shows = found <= degrees * (1 - 1e-5);
             return {{entity(c, judged.which)},
                     shows ? fmt::format("{:.6g} degrees", found)
@@ -197,6 +238,10 @@ std::string check_face_angles(const JudgedMesh& coarse, const JudgedMesh& fine,
         const auto on = descent.coarse_face(f);
         if (!on || !fine.owns(face)) return;
         const FacetVertices parent = outward_face(coarse.mesh.cells[on->cell], on->face);
+        if (is_undivided(face, parent, descent)) {
+            ++findings.arithmetic().filtered;
+            return;
+        }
         const auto piece = triangle(face, fine.mesh);
         const auto whole = triangle(parent, coarse.mesh);
         if (exact::keeps_half_of_smallest_angle(piece, whole, findings.arithmetic())) return;

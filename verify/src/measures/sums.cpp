@@ -73,7 +73,7 @@ struct TagTotal {
 
 struct Volume {
     exact::VolumeSum sum;
-    void clear() { sum.clear(); }
+    void clear(double largest) { sum.clear(largest); }
     void add(const Term& term, const JudgedMesh& judged) {
         const CellFace f = cell_face(term.number);
         const auto [a, b, c] =
@@ -86,7 +86,7 @@ struct Volume {
 struct Area {
     exact::AreaSum facet;
     exact::NumberSum sum;
-    void clear() { sum.clear(); }
+    void clear(double) { sum.clear(); }
     void add(const Term& term, const JudgedMesh& judged) {
         facet.clear();
         facet.add(corners_of(judged.mesh.facets[FacetIndex{term.number}], judged.mesh));
@@ -106,10 +106,12 @@ std::vector<TagTotal> totals_of(std::vector<Term> terms, const TagBounds& bounds
     Measure of_fine;
     Measure of_coarse;
     const exact::NumberSum nothing;
+    const double largest = std::max(exact::largest_coordinate(fine.mesh.points),
+                                    exact::largest_coordinate(coarse.mesh.points));
     for (std::size_t i = 0; i < terms.size();) {
         const Marker tag = terms[i].tag;
-        of_fine.clear();
-        of_coarse.clear();
+        of_fine.clear(largest);
+        of_coarse.clear(largest);
         for (; i < terms.size() && terms[i].tag == tag; ++i) {
             const bool is_fine = terms[i].which == Which::fine;
             (is_fine ? of_fine : of_coarse).add(terms[i], is_fine ? fine : coarse);

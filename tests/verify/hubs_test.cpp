@@ -62,7 +62,7 @@ TEST_P(HubTest, RefinedIsSearchedInFarLessThanTheSquareOfItsCells) {
     const auto refined = [&](std::size_t cells) {
         return reference::refine(GetParam().make(cells), {.all = true}, Scheme::eight, 1).mesh;
     };
-    expect_far_less_than_the_square(refined(500), refined(4000));
+    expect_far_less_than_the_square(refined(1000), refined(8000));
 }
 
 /// The other corners have all angles about the axis, and all directions at each angle: directions

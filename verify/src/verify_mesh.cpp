@@ -5,6 +5,7 @@
 #include "measures/angles.hpp"
 
 #include "measures/sums.hpp"
+#include "mesh/boundary.hpp"
 #include "mesh/checks.hpp"
 #include "parts/mesh_part.hpp"
 #include "same_options.hpp"
@@ -15,7 +16,8 @@ namespace {
 /// Runs the checks of a mesh, or a part of one, whose numbers are in range.
 void judge(JudgedMesh& judged, const VerifyOptions& options, Findings& findings) {
     judged.keeps_cells = false;
-    findings.run("well-formed", [&] { return check_well_formed(judged, findings); });
+    const bool well_formed =
+        findings.run("well-formed", [&] { return check_well_formed(judged, findings); });
     findings.run("markers", [&] { return check_tagged_markers(judged, findings); });
     const bool no_coincidence = findings.run(
         "vertices", [&] { return check_vertices(judged, {}, Unused::noted, findings); });
@@ -30,15 +32,19 @@ void judge(JudgedMesh& judged, const VerifyOptions& options, Findings& findings)
     }
     // Invalid cells would cause further violations; one report of them is sufficient.
     bool none_hangs = false;
+    bool proven = false;
     if (oriented && faced) {
-        none_hangs =
-            findings.run("hanging vertices", [&] { return check_hanging(judged, findings); });
+        none_hangs = findings.run("hanging vertices", [&] {
+            proven = well_formed && boundary_proves_conformity(judged, findings);
+            return proven ? std::string() : check_hanging(judged, findings);
+        });
     } else {
         findings.skip("hanging vertices", "there are invalid cells");
     }
     if (no_coincidence && none_hangs) {
-        findings.run("boundary crossings",
-                     [&] { return check_boundary_crossings(judged, findings); });
+        findings.run("boundary crossings", [&] {
+            return proven ? std::string() : check_boundary_crossings(judged, findings);
+        });
     } else {
         findings.skip("boundary crossings", oriented && faced
                                                 ? "there are coincident or hanging vertices"

@@ -10,6 +10,7 @@
 
 #include "measures/angles.hpp"
 #include "measures/sums.hpp"
+#include "mesh/boundary.hpp"
 #include "mesh/checks.hpp"
 #include "parts/mesh_part.hpp"
 #include "refinement/checks.hpp"
@@ -166,8 +167,10 @@ private:
             findings_.skip("hanging vertices",
                            "the coarse mesh has coincident vertices, possibly a crack");
         } else {
-            none_hangs =
-                findings_.run("hanging vertices", [&] { return check_hanging(fine_, findings_); });
+            none_hangs = findings_.run("hanging vertices", [&] {
+                const bool proven = boundary_proves_conformity(fine_, findings_);
+                return proven ? std::string() : check_hanging(fine_, findings_);
+            });
         }
         Lines lines(fine_, places);
         if (!conforms || !none_lost || !none_hangs) {

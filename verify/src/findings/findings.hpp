@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <string>
@@ -54,6 +55,7 @@ public:
         const std::uint64_t before = count_;
         const auto start = std::chrono::steady_clock::now();
         running_ = name;
+        reported_ = 0;
         report_progress(0);
         std::string note = check();
         const bool clean = sum(*group_, count_ - before) == 0;
@@ -64,9 +66,11 @@ public:
         return clean;
     }
 
-    /// Reports the completed fraction of the running check.
-    void report_progress(double share) const {
-        if (progress_) progress_(running_, share);
+    /// Reports the completed fraction of the running check, of which parts may be done in several
+    /// ways. Never reports less than before.
+    void report_progress(double share) {
+        reported_ = std::max(reported_, share);
+        if (progress_) progress_(running_, reported_);
     }
 
     /// Collective. Records that a check was skipped.
@@ -102,6 +106,7 @@ private:
     const ProcessGroup* group_;
     Progress progress_;
     std::string_view running_;
+    double reported_ = 0;
     std::array<const Numbers*, 3> numbers_{};  ///< indexed by Which
     std::uint64_t count_ = 0;
     std::array<std::vector<Violation>, code_count> kept_;
@@ -111,7 +116,7 @@ private:
 /// Counts the steps of the running check, about `total`, and reports progress from time to time.
 class Steps {
 public:
-    Steps(const Findings& findings, std::uint64_t total) : findings_(&findings), total_(total) {}
+    Steps(Findings& findings, std::uint64_t total) : findings_(&findings), total_(total) {}
 
     void operator()() {
         if (++done_ % steps_per_report != 0) return;
@@ -122,7 +127,7 @@ public:
 private:
     static constexpr std::uint64_t steps_per_report = 1024;
 
-    const Findings* findings_;
+    Findings* findings_;
     std::uint64_t total_;
     std::uint64_t done_ = 0;
 };

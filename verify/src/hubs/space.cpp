@@ -5,7 +5,9 @@
 #include "exact/predicates.hpp"
 #include "hubs/fans.hpp"
 #include "hubs/hubs.hpp"
+#include "hubs/space.hpp"
 #include "lookup/box_tree.hpp"
+#include "mesh/boundary.hpp"
 #include "mesh/checks.hpp"
 
 namespace octetra::verify {
@@ -14,38 +16,34 @@ namespace {
 /// Tests vertices against cells. Cells search for the vertices in their boxes; at and near hubs,
 /// vertices search for cells instead, because boxes of such cells may each contain a large fraction
 /// of all vertices.
-class HangingCheck {
+class HangingSearch {
 public:
-    HangingCheck(const JudgedMesh& judged, Findings& findings)
-        : judged_(judged), mesh_(judged.mesh), findings_(findings), hubs_(judged) {
-        const std::vector<char> used = used_vertices(mesh_);
-        for (VertexIndex v{0}; v < mesh_.points.end_index(); ++v) {
-            if (used[v.value()] != 0 && judged.owns(v)) vertices_.push_back(v);
-        }
-    }
+    HangingSearch(const JudgedMesh& judged, const Hubs& hubs, Findings& findings,
+                  const FoundHanging& found)
+        : judged_(judged), mesh_(judged.mesh), hubs_(hubs), findings_(findings), found_(found) {}
 
-    void run() {
+    void run(const std::vector<VertexIndex>& vertices, const std::vector<CellIndex>& cells) {
         std::vector<Bounds> boxes;
-        for (const VertexIndex v : vertices_) boxes.emplace_back().take(mesh_.points[v]);
+        boxes.reserve(vertices.size());
+        for (const VertexIndex v : vertices) boxes.emplace_back().take(mesh_.points[v]);
         const BoxTree places(std::move(boxes));
         std::vector<Fans<4>::Entity> at_hubs;
-        Steps step(findings_, mesh_.cells.size() + (hubs_.none() ? 0 : vertices_.size()));
-        for (CellIndex c{0}; c < mesh_.cells.end_index(); ++c) {
+        Steps step(findings_, cells.size() + (hubs_.none() ? 0 : vertices.size()));
+        for (const CellIndex c : cells) {
             step();
-            if (judged_.sign[c.value()] <= 0) continue;  // no interior
             const Apex apex = hubs_.apex_of(mesh_.cells[c]);
             if (!apex.is_none()) {
                 at_hubs.push_back({apex, mesh_.cells[c], c.value()});
                 continue;
             }
             places.for_each_meeting(bounds_of(judged_.corners(c)),
-                                    [&](std::uint32_t number) { judge(vertices_[number], c); });
+                                    [&](std::uint32_t number) { judge(vertices[number], c); });
         }
-        const Fans<4> cells(mesh_.points, hubs_, std::move(at_hubs));
-        if (cells.empty()) return;
-        for (const VertexIndex v : vertices_) {
+        const Fans<4> fans(mesh_.points, hubs_, std::move(at_hubs));
+        if (fans.empty()) return;
+        for (const VertexIndex v : vertices) {
             step();
-            cells.for_each_near(std::array{v}, search_tests(), [&](const Fans<4>::Entity& cell) {
+            fans.for_each_near(std::array{v}, search_tests(), [&](const Fans<4>::Entity& cell) {
                 judge(v, CellIndex{cell.number});
             });
         }
@@ -58,155 +56,66 @@ private:
         if (std::find(cell.begin(), cell.end(), v) != cell.end()) return;
         const int touched =
             exact::faces_touched(judged_.corners(c), mesh_.points[v], findings_.arithmetic());
-        // A point on three faces is a corner: two vertices coincide, which is reported elsewhere.
-        if (touched >= 0 && touched < 3) report(v, c, touched);
-    }
-
-    void report(VertexIndex v, CellIndex c, int touched) {
-        constexpr std::array<std::string_view, 3> where{"inside the cell", "on a face of the cell",
-                                                        "on an edge of the cell"};
-        findings_.add(touched == 0 ? Code::vertex_in_cell : Code::hanging_vertex,
-                      [&]() -> Findings::Description {
-                          return {{entity(v, judged_.which), entity(c, judged_.which)},
-                                  std::string(where[static_cast<std::size_t>(touched)]),
-                                  "outside of every cell that does not have it"};
-                      });
+        if (touched >= 0) found_(v, c, touched);
     }
 
     [[nodiscard]] std::uint64_t& search_tests() { return findings_.verdict().search_tests; }
 
     const JudgedMesh& judged_;
     const Mesh& mesh_;
+    const Hubs& hubs_;
     Findings& findings_;
-    Hubs hubs_;
-    std::vector<VertexIndex> vertices_;  ///< vertices to be tested
+    const FoundHanging& found_;
 };
 
-/// Tests edges against faces, one of the two on the boundary: if they have no common vertex, they
-/// must not meet. (With a common vertex they could cross in their plane, the edge leaving the face
-/// through the opposite side. Then another face of the same cell, at that edge or at that side,
-/// meets an entity with which it has no common vertex, since otherwise that cell would be flat. An
-/// edge cannot end within a face: check_hanging would have found this.)
-///
-/// Edges at hubs are searched by all faces, and other edges search for the faces at hubs; so no
-/// pair is tested twice, nor any pair with a common hub.
-class CrossingCheck {
+/// Tests edges against faces that have no vertex in common with them. Edges at hubs are searched by
+/// all faces, and other edges search for the faces at hubs; so no pair is tested twice, nor any
+/// pair with a common hub.
+class CrossingSearch {
 public:
-    CrossingCheck(const JudgedMesh& judged, Findings& findings)
-        : judged_(judged),
-          mesh_(judged.mesh),
-          findings_(findings),
-          hubs_(judged),
-          step_(findings, steps_of(judged, hubs_)) {
-        for (const CellFace f : boundary_faces(judged)) {
-            faces_.push_back(outward_face(mesh_.cells[f.cell], f.face));
-        }
-        const Buckets<2> edges(mesh_.points.size(), [&](auto&& visit) {
-            for (const FacetVertices& f : faces_) {
-                for (const auto& [i, j] : triangle_edges) visit(EdgeVertices{f[i], f[j]}, 0);
-            }
-        });
-        edges.for_each_group([&](const EdgeVertices& edge, auto) { edges_.push_back(edge); });
-    }
+    CrossingSearch(const JudgedMesh& judged, const Hubs& hubs, Findings& findings,
+                   const FoundCrossing& found)
+        : judged_(judged), mesh_(judged.mesh), hubs_(hubs), findings_(findings), found_(found) {}
 
-    void run() {
-        check_away_from_hubs();
-        if (hubs_.none()) return;
-        check_edges_at_hubs();
-        check_faces_at_hubs();
+    void run(const std::vector<EdgeVertices>& edges, const std::vector<FacetVertices>& faces) {
+        Steps step(findings_, edges.size() + (hubs_.none() ? 0 : faces.size()));
+        std::vector<FacetVertices> away;
+        std::vector<Fans<3>::Entity> faces_at_hubs;
+        std::vector<Fans<2>::Entity> edges_at_hubs;
+        for (const FacetVertices& face : faces) {
+            const Apex apex = hubs_.apex_of(face);
+            if (apex.is_none()) {
+                away.push_back(face);
+            } else {
+                faces_at_hubs.push_back({apex, face});
+            }
+        }
+        const BoxTree tree = tree_of(away);
+        const Fans<3> face_fans(mesh_.points, hubs_, std::move(faces_at_hubs));
+        for (const EdgeVertices& edge : edges) {
+            step();
+            const Apex apex = hubs_.apex_of(edge);
+            if (!apex.is_none()) {
+                edges_at_hubs.push_back({apex, edge});
+                continue;
+            }
+            tree.for_each_meeting(bounds_of(places(edge)),
+                                  [&](std::uint32_t number) { judge(edge, away[number]); });
+            face_fans.for_each_near(edge, search_tests(), [&](const Fans<3>::Entity& face) {
+                judge(edge, face.vertices);
+            });
+        }
+        const Fans<2> edge_fans(mesh_.points, hubs_, std::move(edges_at_hubs));
+        if (edge_fans.empty()) return;
+        for (const FacetVertices& face : faces) {
+            step();
+            edge_fans.for_each_near(face, search_tests(), [&](const Fans<2>::Entity& edge) {
+                judge(edge.vertices, face);
+            });
+        }
     }
 
 private:
-    /// The number of edges and faces that search for others, once away from hubs and once at hubs.
-    /// (Most faces have two cells.)
-    static std::uint64_t steps_of(const JudgedMesh& judged, const Hubs& hubs) {
-        const std::uint64_t once = judged.edges.size() + 2 * judged.mesh.cells.size();
-        return hubs.none() ? once : 2 * once;
-    }
-
-    template <std::size_t N>
-    [[nodiscard]] bool is_at_hub(const std::array<VertexIndex, N>& entity) const {
-        return !hubs_.apex_of(entity).is_none();
-    }
-
-    void for_each_inner_face(auto&& visit) const {
-        judged_.faces.for_each_group([&](const FacetVertices& face, auto cells) {
-            if (cells.size() > 1) visit(face);
-        });
-    }
-
-    void check_away_from_hubs() {
-        const auto away_from_hubs = [&](auto entities) {
-            std::erase_if(entities, [&](const auto& entity) { return is_at_hub(entity); });
-            return entities;
-        };
-        const auto faces = away_from_hubs(faces_);
-        const BoxTree boundary_faces = tree_of(faces);
-        judged_.edges.for_each([&](const EdgeVertices& edge) {
-            step_();
-            if (is_at_hub(edge)) return;
-            boundary_faces.for_each_meeting(
-                bounds_of(places(edge)), [&](std::uint32_t number) { judge(edge, faces[number]); });
-        });
-        const auto edges = away_from_hubs(edges_);
-        const BoxTree boundary_edges = tree_of(edges);
-        for_each_inner_face([&](const FacetVertices& face) {  // boundary faces are done above
-            step_();
-            if (is_at_hub(face)) return;
-            boundary_edges.for_each_meeting(
-                bounds_of(places(face)), [&](std::uint32_t number) { judge(edges[number], face); });
-        });
-    }
-
-    void check_edges_at_hubs() {
-        std::vector<Fans<2>::Entity> boundary;
-        std::vector<Fans<2>::Entity> inner;
-        judged_.edges.for_each([&](const EdgeVertices& edge) {
-            const Apex apex = hubs_.apex_of(edge);
-            if (apex.is_none()) return;
-            const bool on_boundary = std::binary_search(edges_.begin(), edges_.end(), edge);
-            (on_boundary ? boundary : inner).push_back({apex, edge});
-        });
-        const Fans<2> boundary_edges(mesh_.points, hubs_, std::move(boundary));
-        const Fans<2> inner_edges(mesh_.points, hubs_, std::move(inner));
-        const auto look_for = [&](const Fans<2>& edges, const FacetVertices& face) {
-            edges.for_each_near(face, search_tests(),
-                                [&](const Fans<2>::Entity& edge) { judge(edge.vertices, face); });
-        };
-        for (const FacetVertices& face : faces_) {
-            look_for(boundary_edges, face);
-            look_for(inner_edges, face);
-        }
-        for_each_inner_face([&](const FacetVertices& face) {
-            step_();
-            look_for(boundary_edges, face);
-        });
-    }
-
-    void check_faces_at_hubs() {
-        std::vector<Fans<3>::Entity> boundary;
-        std::vector<Fans<3>::Entity> inner;
-        const auto sort_into = [&](std::vector<Fans<3>::Entity>& list, const FacetVertices& face) {
-            const Apex apex = hubs_.apex_of(face);
-            if (!apex.is_none()) list.push_back({apex, face});
-        };
-        for (const FacetVertices& face : faces_) sort_into(boundary, face);
-        for_each_inner_face([&](const FacetVertices& face) { sort_into(inner, face); });
-        const Fans<3> boundary_faces(mesh_.points, hubs_, std::move(boundary));
-        const Fans<3> inner_faces(mesh_.points, hubs_, std::move(inner));
-        const auto look_for = [&](const Fans<3>& faces, const EdgeVertices& edge) {
-            faces.for_each_near(edge, search_tests(),
-                                [&](const Fans<3>::Entity& face) { judge(edge, face.vertices); });
-        };
-        judged_.edges.for_each([&](const EdgeVertices& edge) {
-            step_();
-            if (!is_at_hub(edge)) look_for(boundary_faces, edge);
-        });
-        for (const EdgeVertices& edge : edges_) {
-            if (!is_at_hub(edge)) look_for(inner_faces, edge);
-        }
-    }
-
     [[nodiscard]] std::uint64_t& search_tests() { return findings_.verdict().search_tests; }
 
     template <std::size_t N>
@@ -216,11 +125,10 @@ private:
         return points;
     }
 
-    template <std::size_t N>
-    [[nodiscard]] BoxTree tree_of(const std::vector<std::array<VertexIndex, N>>& entities) const {
+    [[nodiscard]] BoxTree tree_of(const std::vector<FacetVertices>& faces) const {
         std::vector<Bounds> boxes;
-        boxes.reserve(entities.size());
-        for (const auto& entity : entities) boxes.push_back(bounds_of(places(entity)));
+        boxes.reserve(faces.size());
+        for (const FacetVertices& face : faces) boxes.push_back(bounds_of(places(face)));
         return BoxTree(std::move(boxes));
     }
 
@@ -230,12 +138,7 @@ private:
             if (v == edge[0] || v == edge[1]) return;
         }
         if (!owns_meeting_of(bounds_of(places(edge)), bounds_of(places(face)))) return;
-        if (!exact::meet(places(edge), places(face), findings_.arithmetic())) return;
-        findings_.add(Code::boundary_crosses, [&]() -> Findings::Description {
-            return {{entity(edge, judged_.which), entity(face, judged_.which)},
-                    "the edge meets the face",
-                    "no point in common but vertices"};
-        });
+        if (exact::meet(places(edge), places(face), findings_.arithmetic())) found_(edge, face);
     }
 
     /// A pair belongs to the process that owns the lowest corner of the intersection of their
@@ -247,22 +150,76 @@ private:
 
     const JudgedMesh& judged_;
     const Mesh& mesh_;
+    const Hubs& hubs_;
     Findings& findings_;
-    Hubs hubs_;
-    Steps step_;
-    std::vector<FacetVertices> faces_;  ///< faces of the boundary
-    std::vector<EdgeVertices> edges_;   ///< edges of these faces, ascending
+    const FoundCrossing& found_;
 };
+
+void report_hanging(VertexIndex v, CellIndex c, int touched, Which which, Findings& findings) {
+    constexpr std::array<std::string_view, 3> where{"inside the cell", "on a face of the cell",
+                                                    "on an edge of the cell"};
+    findings.add(touched == 0 ? Code::vertex_in_cell : Code::hanging_vertex,
+                 [&]() -> Findings::Description {
+                     return {{entity(v, which), entity(c, which)},
+                             std::string(where[static_cast<std::size_t>(touched)]),
+                             "outside of every cell that does not have it"};
+                 });
+}
 
 }  // namespace
 
+void search_hanging(const JudgedMesh& judged, const Hubs& hubs,
+                    const std::vector<VertexIndex>& vertices, const std::vector<CellIndex>& cells,
+                    Findings& findings, const FoundHanging& found) {
+    HangingSearch(judged, hubs, findings, found).run(vertices, cells);
+}
+
+void search_crossings(const JudgedMesh& judged, const Hubs& hubs,
+                      const std::vector<EdgeVertices>& edges,
+                      const std::vector<FacetVertices>& faces, Findings& findings,
+                      const FoundCrossing& found) {
+    CrossingSearch(judged, hubs, findings, found).run(edges, faces);
+}
+
 std::string check_hanging(const JudgedMesh& judged, Findings& findings) {
-    HangingCheck(judged, findings).run();
+    const std::vector<char> used = used_vertices(judged.mesh);
+    std::vector<VertexIndex> vertices;
+    for (VertexIndex v{0}; v < judged.mesh.points.end_index(); ++v) {
+        if (used[v.value()] != 0 && judged.owns(v)) vertices.push_back(v);
+    }
+    std::vector<CellIndex> cells;
+    for (CellIndex c{0}; c < judged.mesh.cells.end_index(); ++c) {
+        if (judged.sign[c.value()] > 0) cells.push_back(c);  // others have no interior
+    }
+    const Hubs hubs(judged);
+    search_hanging(judged, hubs, vertices, cells, findings,
+                   [&](VertexIndex v, CellIndex c, int touched) {
+                       // A point on three faces is a corner: two vertices coincide, which is
+                       // reported elsewhere.
+                       if (touched < 3) report_hanging(v, c, touched, judged.which, findings);
+                   });
     return {};
 }
 
 std::string check_boundary_crossings(const JudgedMesh& judged, Findings& findings) {
-    CrossingCheck(judged, findings).run();
+    const auto report = [&](const EdgeVertices& edge, const FacetVertices& face) {
+        findings.add(Code::boundary_crosses, [&]() -> Findings::Description {
+            return {{entity(edge, judged.which), entity(face, judged.which)},
+                    "the edge meets the face",
+                    "no point in common but vertices"};
+        });
+    };
+    const Hubs hubs(judged);
+    const Boundary boundary = boundary_of(judged);
+    std::vector<EdgeVertices> edges;
+    edges.reserve(judged.edges.size());
+    judged.edges.for_each([&](const EdgeVertices& edge) { edges.push_back(edge); });
+    search_crossings(judged, hubs, edges, boundary.faces, findings, report);
+    std::vector<FacetVertices> inner_faces;  // boundary faces are done above
+    judged.faces.for_each_group([&](const FacetVertices& face, auto cells) {
+        if (cells.size() > 1) inner_faces.push_back(face);
+    });
+    search_crossings(judged, hubs, boundary.edges, inner_faces, findings, report);
     return {};
 }
 

@@ -7,7 +7,7 @@ namespace octetra::verify {
 namespace {
 
 /// Returns, for each face of each coarse cell, by its tag, whether it is on the boundary.
-std::vector<char> boundary_of(const JudgedMesh& coarse) {
+std::vector<char> marked_boundary(const JudgedMesh& coarse) {
     std::vector<char> on_boundary(4 * coarse.mesh.cells.size(), 0);
     for (const CellFace f : boundary_faces(coarse)) on_boundary[tag_of(f)] = 1;
     return on_boundary;
@@ -23,7 +23,7 @@ std::vector<char> boundary_of(const JudgedMesh& coarse) {
 /// collinear.)
 std::string check_cover(const JudgedMesh& coarse, const JudgedMesh& fine, const Descent& descent,
                         Findings& findings) {
-    const std::vector<char> on_boundary = boundary_of(coarse);
+    const std::vector<char> on_boundary = marked_boundary(coarse);
     fine.faces.for_each_group([&](const FacetVertices& face, auto entries) {
         if (entries.size() != 1 || !fine.owns(face)) return;
         const CellFace f = cell_face(entries.front().tag);

@@ -10,6 +10,9 @@
 /// Element types by the numbers that Gmsh assigns to them.
 namespace octetra::gmsh {
 
+/// The size of a node in a binary file of versions 2 to 2.2.
+inline constexpr std::size_t node_bytes_2 = sizeof(std::int32_t) + 3 * sizeof(double);
+
 inline constexpr std::uint64_t line_type = 1;
 inline constexpr std::uint64_t triangle_type = 2;
 inline constexpr std::uint64_t tetrahedron_type = 4;

@@ -11,6 +11,8 @@
 /// Gmsh's format `.msh`, versions 2 to 2.2 and 4.1, text and binary: sections `$Name` ...
 /// `$EndName`. Nodes have tags, which need not be consecutive; elements belong to entities of the
 /// geometry, and these to physical groups, whose tags become markers and region tags.
+/// `reading/` parses the sections of a file, `intake/` builds a mesh from their nodes and elements,
+/// and `writing/` writes a mesh.
 namespace octetra {
 
 /// Collective in the group of `growing`, within a transaction if it has several processes. Reads a

@@ -1,4 +1,4 @@
-#include "files/gmsh/points_box.hpp"
+#include "files/gmsh/writing/points_box.hpp"
 
 #include <algorithm>
 #include <limits>

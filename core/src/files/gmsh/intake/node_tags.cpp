@@ -1,4 +1,4 @@
-#include "files/gmsh/node_tags.hpp"
+#include "files/gmsh/intake/node_tags.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "files/gmsh/node_numbers.hpp"
+#include "files/gmsh/intake/node_numbers.hpp"
 
 #include <algorithm>
 

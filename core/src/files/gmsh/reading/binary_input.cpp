@@ -1,4 +1,4 @@
-#include "files/gmsh/binary_input.hpp"
+#include "files/gmsh/reading/binary_input.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -8,7 +8,7 @@
 
 #include <octetra/core/error.hpp>
 
-#include "files/gmsh/mesh_intake.hpp"
+#include "files/gmsh/intake/mesh_intake.hpp"
 #include "files/input/growing_mesh.hpp"
 
 namespace octetra::gmsh {

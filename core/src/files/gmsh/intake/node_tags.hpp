@@ -8,7 +8,7 @@
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/process_group.hpp>
 
-#include "files/gmsh/node_numbers.hpp"
+#include "files/gmsh/intake/node_numbers.hpp"
 
 namespace octetra::gmsh {
 

@@ -18,11 +18,9 @@
 
 #include "files/gmsh/element_types.hpp"
 #include "files/gmsh/gmsh.hpp"
-#include "files/gmsh/group_names.hpp"
-#include "files/gmsh/marker_runs.hpp"
-#include "files/gmsh/number_output.hpp"
-#include "files/gmsh/points_box.hpp"
-#include "files/gmsh/sections_2.hpp"
+#include "files/gmsh/writing/marker_runs.hpp"
+#include "files/gmsh/writing/number_output.hpp"
+#include "files/gmsh/writing/points_box.hpp"
 #include "files/output/entity_list.hpp"
 #include "files/output/output_file.hpp"
 #include "files/output/text_slices.hpp"
@@ -71,7 +69,7 @@ public:
     void write() {
         on_first([&] {
             put_format();
-            put_group_names(numbers_, names_);
+            put_group_names();
         });
         is_2_ ? write_2() : write_4();
     }
@@ -144,6 +142,16 @@ private:
         if (numbers_.is_text()) return numbers_.put_text("$EndMeshFormat\n");
         put_row(std::int32_t{1});
         numbers_.end_section("MeshFormat");
+    }
+
+    void put_group_names() {
+        if (names_.empty()) return;
+        numbers_.put_text(fmt::format("$PhysicalNames\n{}\n", names_.size()));
+        for (const GroupName& group : names_) {
+            numbers_.put_text(
+                fmt::format("{} {} \"{}\"\n", group.dimension, group.tag, group.name));
+        }
+        numbers_.put_text("$EndPhysicalNames\n");
     }
 
     // Version 4.1

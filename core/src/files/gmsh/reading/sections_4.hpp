@@ -12,11 +12,11 @@
 
 #include <octetra/core/mesh.hpp>
 
-#include "files/gmsh/blocks.hpp"
 #include "files/gmsh/element_types.hpp"
-#include "files/gmsh/entity_groups.hpp"
-#include "files/gmsh/mesh_intake.hpp"
-#include "files/gmsh/row_batch.hpp"
+#include "files/gmsh/intake/mesh_intake.hpp"
+#include "files/gmsh/reading/blocks.hpp"
+#include "files/gmsh/reading/entity_groups.hpp"
+#include "files/gmsh/reading/row_batch.hpp"
 #include "files/input/growing_mesh.hpp"
 
 /// The sections of version 4.1, text and binary, which have the same numbers in the same order.

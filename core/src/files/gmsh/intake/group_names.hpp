@@ -14,9 +14,7 @@
 #include <octetra/core/checkpoint_blocks.hpp>
 #include <octetra/core/mesh.hpp>
 
-#include "files/gmsh/number_output.hpp"
-
-/// The section $PhysicalNames, which is text also in binary files.
+/// Reads the section $PhysicalNames, which is text also in binary files.
 namespace octetra::gmsh {
 
 /// Parses a line such as `2 5 "outer wall"`. The name extends from the first to the last quotation
@@ -67,7 +65,5 @@ std::uint64_t read_group_names(Input& in, std::vector<GroupName>& names, Untagge
     if (twice == groups.end()) return ignored;
     in.fail(fmt::format("group {} of dimension {} has two names", twice->second, twice->first));
 }
-
-void put_group_names(NumberOutput& out, const std::vector<GroupName>& names);
 
 }  // namespace octetra::gmsh

@@ -1,9 +1,7 @@
-#include "files/gmsh/group_names.hpp"
+#include "files/gmsh/intake/group_names.hpp"
 
 #include <charconv>
 #include <system_error>
-
-#include <fmt/format.h>
 
 namespace octetra::gmsh {
 namespace {
@@ -30,15 +28,6 @@ std::optional<GroupName> parse_group_name(std::string_view line) {
         return std::nullopt;
     }
     return GroupName{*dimension, *tag, std::string(line.substr(first + 1, last - first - 1))};
-}
-
-void put_group_names(NumberOutput& out, const std::vector<GroupName>& names) {
-    if (names.empty()) return;
-    out.put_text(fmt::format("$PhysicalNames\n{}\n", names.size()));
-    for (const GroupName& group : names) {
-        out.put_text(fmt::format("{} {} \"{}\"\n", group.dimension, group.tag, group.name));
-    }
-    out.put_text("$EndPhysicalNames\n");
 }
 
 }  // namespace octetra::gmsh

@@ -1,4 +1,4 @@
-#include "files/gmsh/ignored.hpp"
+#include "files/gmsh/intake/ignored.hpp"
 
 #include <algorithm>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "files/gmsh/format_line.hpp"
+#include "files/gmsh/reading/format_line.hpp"
 
 #include <cstdint>
 #include <string>

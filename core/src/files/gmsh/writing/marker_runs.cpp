@@ -1,4 +1,4 @@
-#include "files/gmsh/marker_runs.hpp"
+#include "files/gmsh/writing/marker_runs.hpp"
 
 #include <algorithm>
 #include <iterator>

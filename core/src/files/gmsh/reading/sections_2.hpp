@@ -11,17 +11,15 @@
 #include <fmt/format.h>
 
 #include "files/gmsh/element_types.hpp"
-#include "files/gmsh/listed_again.hpp"
-#include "files/gmsh/mesh_intake.hpp"
-#include "files/gmsh/row_batch.hpp"
+#include "files/gmsh/intake/mesh_intake.hpp"
+#include "files/gmsh/reading/listed_again.hpp"
+#include "files/gmsh/reading/row_batch.hpp"
 #include "files/input/byte_reader.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/input/in_order.hpp"
 
 /// The sections of versions 2 to 2.2, text and binary. Input is TextInput or BinaryInput.
 namespace octetra::gmsh {
-
-inline constexpr std::size_t node_bytes_2 = sizeof(std::int32_t) + 3 * sizeof(double);
 
 template <class Input>
 std::uint64_t read_node_count_2(Input& in) {

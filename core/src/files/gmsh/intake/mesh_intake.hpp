@@ -15,11 +15,11 @@
 
 #include "files/checks/cell_check.hpp"
 #include "files/gmsh/element_types.hpp"
-#include "files/gmsh/group_names.hpp"
-#include "files/gmsh/ignored.hpp"
-#include "files/gmsh/node_numbers.hpp"
-#include "files/gmsh/node_tags.hpp"
-#include "files/gmsh/position_runs.hpp"
+#include "files/gmsh/intake/group_names.hpp"
+#include "files/gmsh/intake/ignored.hpp"
+#include "files/gmsh/intake/node_numbers.hpp"
+#include "files/gmsh/intake/node_tags.hpp"
+#include "files/gmsh/intake/position_runs.hpp"
 #include "files/input/growing_mesh.hpp"
 
 namespace octetra::gmsh {

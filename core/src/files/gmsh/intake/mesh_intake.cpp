@@ -1,4 +1,4 @@
-#include "files/gmsh/mesh_intake.hpp"
+#include "files/gmsh/intake/mesh_intake.hpp"
 
 #include <algorithm>
 

@@ -74,6 +74,7 @@ Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
 }
 
 Verdict verify_mesh(MeshSlice mesh, const ProcessGroup& group, const VerifyOptions& options) {
+    if (group.size() == 1) return verify_mesh(mesh.lists, options);
     const StandardArithmetic standard;
     check_same_options(group, options);
     Findings findings(options.kept_per_code, group, options.progress);

@@ -265,6 +265,7 @@ Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOpti
 
 Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const ProcessGroup& group,
                           const VerifyOptions& options) {
+    if (group.size() == 1) return verify_refinement(coarse.lists, fine.lists, options);
     const StandardArithmetic standard;
     check_same_options(group, options);
     Findings findings(options.kept_per_code, group, options.progress);

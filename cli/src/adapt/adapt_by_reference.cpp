@@ -14,8 +14,10 @@
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/reference/history.hpp>
+#include <octetra/verify/mesh_slice.hpp>
 
 #include "adapt/check_files.hpp"
+#include "adapt/run.hpp"
 #include "adapt/step_texts.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/report_line.hpp"
@@ -52,12 +54,11 @@ public:
           max_cells_(max_cells) {}
 
     [[nodiscard]] const Mesh& mesh() const { return refined_.mesh; }
-    /// Writes the mesh. Returns sentences naming the data that the format cannot hold.
-    [[nodiscard]] std::vector<std::string> write(const std::string& path) const {
+    /// Writes the mesh. Returns a sentence naming the data that the format cannot hold, or an empty
+    /// string.
+    [[nodiscard]] std::string write(const std::string& path) const {
         WholeMesh source(refined_.mesh, &refined_.maps);
-        std::string lost = write_mesh(source, path);
-        if (lost.empty()) return {};
-        return {std::move(lost)};
+        return write_mesh(source, path);
     }
 
     /// Returns whether any level has changed the mesh.
@@ -174,7 +175,7 @@ public:
         return {"rebalanced, and no cell moved: most/mean cells 1.00", {}, false};
     }
     StepDone operator()(const WriteStep& step) const {
-        return {fmt::format("wrote {}", step.path), adapted_->write(step.path), false};
+        return step_written(step.path, adapted_->write(step.path));
     }
 
 private:
@@ -207,7 +208,7 @@ void refuse_what_the_reference_lacks(const AdaptationOptions& options, const Scr
     }
 }
 
-void run(AdaptedByReference& adapted, const Script& script, bool quiet, Stopwatch& watch) {
+void run_steps(AdaptedByReference& adapted, const Script& script, bool quiet, Stopwatch& watch) {
     for (const ScriptStep& step : script.steps) {
         const Mesh& mesh = adapted.mesh();
         const std::string was = sizes_before(mesh.points.size(), mesh.cells.size());
@@ -231,15 +232,17 @@ void run(AdaptedByReference& adapted, const Script& script, bool quiet, Stopwatc
 void adapt_by_reference(const AdaptationOptions& options, const Script& script) {
     refuse_what_the_reference_lacks(options, script);
     check_files(options, script, {}, 1);
+    check_lists_of(script);
     Stopwatch watch;
     AdaptedByReference adapted(read_input(options.input), options.max_cells);
     check_regions_of(script, adapted.mesh().regions, ProcessGroup::alone());
-    report_line(options.quiet, fmt::format("read {}", options.input.path),
-                adapted.mesh().points.size(), adapted.mesh().cells.size(), watch.lap());
-    run(adapted, script, options.quiet, watch);
-    for (const std::string& what : adapted.write(options.output)) note(what);
-    report_line(options.quiet, fmt::format("wrote {}", options.output),
-                adapted.mesh().points.size(), adapted.mesh().cells.size(), watch.lap());
+    const Run run{&options, distributed::Communicator(), &watch};
+    const auto size = [&]() -> MeshSize {
+        return {adapted.mesh().points.size(), adapted.mesh().cells.size()};
+    };
+    report_input(run, size(), [&] { return verify::distribute_slices(adapted.mesh(), run.world); });
+    run_steps(adapted, script, options.quiet, watch);
+    report_written(run, adapted.write(options.output), size());
 }
 
 }  // namespace octetra::cli

@@ -21,19 +21,17 @@
 #include <octetra/verify/verify.hpp>
 
 #include "adapt/check_files.hpp"
-#include "adapt/judge_result.hpp"
+#include "adapt/judge.hpp"
 #include "adapt/maps_since.hpp"
 #include "adapt/predicted_by_steps.hpp"
+#include "adapt/run.hpp"
 #include "adapt/run_script.hpp"
 #include "adapt/step_texts.hpp"
 #include "adapt/transfer_fields.hpp"
 #include "adapt/write_result.hpp"
-#include "commands/input_check.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/parallel_options.hpp"
 #include "commands/profile_options.hpp"
-#include "commands/refine/maps_of_all.hpp"
-#include "commands/report_line.hpp"
 #include "negative_answer.hpp"
 #include "script/check_script.hpp"
 #include "script/read_script.hpp"
@@ -67,16 +65,9 @@ private:
     int steps_ = 0;
 };
 
-/// Collective. Writes the result and reports it.
-void write_and_report(const distributed::AdaptiveMesh& mesh,
-                      const std::vector<distributed::Field>& fields,
-                      const AdaptationOptions& options, Stopwatch& watch) {
-    const std::vector<std::string> lost = write_result(mesh, fields, options.output);
-    const std::uint64_t cells = mesh.processes().sum(mesh.cells().size());
-    if (!mesh.processes().is_first()) return;
-    for (const std::string& what : lost) note(what);
-    report_line(options.quiet, fmt::format("wrote {}", options.output), mesh.vertex_count(), cells,
-                watch.lap());
+/// Collective.
+MeshSize size_of(const distributed::AdaptiveMesh& mesh) {
+    return {mesh.vertex_count(), mesh.processes().sum(mesh.cells().size())};
 }
 
 /// Collective. Loads a checkpoint, partitioned by rcb unless another method is given, so that no
@@ -121,14 +112,16 @@ distributed::AdaptiveMesh read_in_parts(const AdaptationOptions& options, const 
 }
 
 /// Collective. Returns the mesh of which the result is to be a refinement: the input of the
-/// history, or the mesh.
-JudgedMesh input_to_judge(const distributed::AdaptiveMesh& mesh, const AdaptationOptions& options) {
-    if (!is_checkpoint(options.input.path)) return mesh_to_judge(mesh, options.input.path);
+/// history, or the mesh; nothing if it is to be a coarsening.
+verify::MeshSlice slice_to_judge(const distributed::AdaptiveMesh& mesh,
+                                 const AdaptationOptions& options) {
+    if (options.claim == Claim::coarsens_mesh) return {};
+    if (options.claim == Claim::refines_mesh || !is_checkpoint(options.input.path)) {
+        return slice_of(mesh);
+    }
     Mesh input;
     mesh.processes().on_first([&] { input = read_checkpoint(options.input.path).input; });
-    verify::MeshSlice slice = verify::distribute_slices(input, mesh.processes());
-    const std::uint32_t index_base = slice.lists.index_base;
-    return {options.input.path, index_base, std::move(slice)};
+    return verify::distribute_slices(input, mesh.processes());
 }
 
 /// Collective. Returns the request of the only step, for the mesh as it was read.
@@ -147,30 +140,22 @@ bool has_regular_step(const Script& script) {
 }
 
 /// Collective. Returns whether the result satisfies the claim.
-bool is_valid(const distributed::AdaptiveMesh& mesh, JudgedMesh coarse,
-              const AdaptationOptions& options, const Script& script, const MeshFacts& read,
-              const CellsSince* since) {
-    const distributed::Communicator& world = mesh.processes();
+bool is_valid(const Run& run, const distributed::AdaptiveMesh& mesh, verify::MeshSlice coarse,
+              const Script& script, const MeshFacts& read, const std::optional<CellsSince>& since) {
+    const AdaptationOptions& options = *run.options;
     if (options.claim == Claim::coarsens_mesh) {
         const auto& step = std::get<CoarsenStep>(script.steps.front().step);
-        return is_valid_coarsening(mesh, {options.input.path, step.typed, step.selection},
-                                   options.output);
+        return is_valid_coarsening(run, mesh, {options.input.path, step.typed, step.selection});
     }
-    if (has_regular_step(script) && world.is_first()) {
-        note(std::string(regular_closure_is_unchecked));
-    }
-    Judgement judgement{.fine = options.output, .is_coarse_checked = options.check};
+    const distributed::Phase phase(run.world, "verify");
+    std::optional<MapsSince> maps;
+    if (since) maps.emplace(mesh, *since);
+    Judgement judgement{.is_regular = has_regular_step(script), .maps = maps ? &*maps : nullptr};
     if (options.claim == Claim::refines_mesh) {
         judgement.request =
-            request_of(std::get<RefineStep>(script.steps.front().step), read, world);
+            request_of(std::get<RefineStep>(script.steps.front().step), read, run.world);
     }
-    RefinementMaps maps;
-    if (since != nullptr) {
-        MapsSince source(mesh, *since);
-        maps = maps_of_all(source, world);
-        judgement.maps = &maps;
-    }
-    return is_valid_refinement(mesh, std::move(coarse), judgement);
+    return is_valid_refinement(run, std::move(coarse), slice_of(mesh), judgement);
 }
 
 }  // namespace
@@ -182,7 +167,10 @@ void adapt(const AdaptationOptions& options, const Script& script,
                                          .max_cells = options.max_cells};
     Stopwatch watch;
     distributed::in_phase(world, "read", [&] {
-        world.on_first([&] { check_files(options, script, partition, world.size()); });
+        world.on_first([&] {
+            check_files(options, script, partition, world.size());
+            check_lists_of(script);
+        });
     });
     MeshFacts read;  // on the first process
     std::vector<distributed::Field> fields;
@@ -198,23 +186,10 @@ void adapt(const AdaptationOptions& options, const Script& script,
                                 : read_in_parts(options, script, partition, world, read);
     check_regions_of(script, adaptive.regions(), world);
     distributed::in_phase(world, "read", [&] { read_fields(adaptive, options.input, fields); });
-    const auto report = [&](std::string_view doing) {
-        const std::uint64_t cells = world.sum(adaptive.cells().size());
-        if (!world.is_first()) return;
-        report_line(options.quiet, doing, adaptive.vertex_count(), cells, watch.lap());
-    };
-    report(fmt::format("read {}", options.input.path));
-    if (options.check) {
-        check_input(mesh_to_judge(adaptive, {}).slice, options.input.path, world);
-        report(fmt::format("checked {}", options.input.path));
-    }
-    JudgedMesh coarse;
-    if (options.verify && options.claim == Claim::refines_input) {
-        coarse = input_to_judge(adaptive, options);
-    }
-    if (options.verify && options.claim == Claim::refines_mesh) {
-        coarse = mesh_to_judge(adaptive, options.input.path);
-    }
+    const Run run{&options, world, &watch};
+    report_input(run, size_of(adaptive), [&] { return slice_of(adaptive); });
+    verify::MeshSlice coarse;
+    if (options.verify) coarse = slice_to_judge(adaptive, options);
     std::optional<CellsSince> since;
     if (!options.maps.empty()) since.emplace(adaptive);
     const auto follow = [&](const distributed::Adaptation& step) {
@@ -244,14 +219,14 @@ void adapt(const AdaptationOptions& options, const Script& script,
                 .quiet = options.quiet},
                watch);
     if (options.verify) {
-        if (!is_valid(adaptive, std::move(coarse), options, script, read,
-                      since ? &*since : nullptr)) {
+        if (!is_valid(run, adaptive, std::move(coarse), script, read, since)) {
             write_profile(world, options.profile, options.quiet);
             throw NegativeAnswer{};
         }
-        report("verified");
+        report(run, "verified", size_of(adaptive));
     }
-    write_and_report(adaptive, fields, options, watch);
+    const std::string lost = write_result(adaptive, fields, options.output);
+    report_written(run, lost, size_of(adaptive));
     if (has_regular_step(script) && !is_checkpoint(options.output) && world.is_first()) {
         note(std::string(regular_history_is_lost));
     }

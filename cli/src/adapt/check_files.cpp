@@ -28,7 +28,6 @@ void check_files(const AdaptationOptions& options, const Script& script,
     written.insert(written.begin(), output_to_write("-o", options.input, options.output, ranks));
     check_distinct_files(read, written);
     check_outputs_of(script, options.input, read, written, ranks);
-    check_lists_of(script);
 }
 
 }  // namespace octetra::cli

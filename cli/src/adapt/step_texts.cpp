@@ -6,6 +6,12 @@
 
 namespace octetra::cli {
 
+StepDone step_written(const std::string& path, const std::string& lost) {
+    StepDone done{.what = fmt::format("wrote {}", path), .changes_mesh = false};
+    if (!lost.empty()) done.remarks.push_back(lost);
+    return done;
+}
+
 std::string levels_done(std::string_view done, int levels) {
     return fmt::format("{}, {} level{}", done, levels, levels == 1 ? "" : "s");
 }

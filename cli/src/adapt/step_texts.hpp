@@ -14,6 +14,10 @@ struct StepDone {
     bool changes_mesh = true;
 };
 
+/// Returns the report of a step that wrote a file. `lost` names the data that its format cannot
+/// hold, or is empty.
+[[nodiscard]] StepDone step_written(const std::string& path, const std::string& lost);
+
 /// Returns "refined, 2 levels" etc.
 [[nodiscard]] std::string levels_done(std::string_view done, int levels);
 

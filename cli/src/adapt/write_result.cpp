@@ -1,23 +1,18 @@
 #include "adapt/write_result.hpp"
 
-#include <utility>
-
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/distributed/profile.hpp>
 
 namespace octetra::cli {
 
-std::vector<std::string> write_result(const distributed::AdaptiveMesh& mesh,
-                                      const std::vector<distributed::Field>& fields,
-                                      const std::string& path) {
+std::string write_result(const distributed::AdaptiveMesh& mesh,
+                         const std::vector<distributed::Field>& fields, const std::string& path) {
     const distributed::Phase phase(mesh.processes(), "write");
     if (is_checkpoint(path)) {
         mesh.save(path, fields);
         return {};
     }
-    std::string lost = mesh.write(path, fields);
-    if (lost.empty()) return {};
-    return {std::move(lost)};
+    return mesh.write(path, fields);
 }
 
 }  // namespace octetra::cli

@@ -8,10 +8,10 @@
 
 namespace octetra::cli {
 
-/// Collective. Writes the mesh and its fields in the format of the extension. Returns sentences
-/// naming the data that the format cannot hold, if any.
-[[nodiscard]] std::vector<std::string> write_result(const distributed::AdaptiveMesh& mesh,
-                                                    const std::vector<distributed::Field>& fields,
-                                                    const std::string& path);
+/// Collective. Writes the mesh and its fields in the format of the extension. Returns a sentence
+/// naming the data that the format cannot hold, or an empty string.
+[[nodiscard]] std::string write_result(const distributed::AdaptiveMesh& mesh,
+                                       const std::vector<distributed::Field>& fields,
+                                       const std::string& path);
 
 }  // namespace octetra::cli

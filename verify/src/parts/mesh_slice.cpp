@@ -39,6 +39,19 @@ void check_countable(const MeshFacts& facts) {
                     most, VertexIndex::limit));
 }
 
+/// Calls take(window) for windows that together cover all slices of a larger one, few entities at a
+/// time, so that the buffers of a MeshSource remain small.
+void for_each_piece(const Window& slices, auto&& take) {
+    constexpr std::uint64_t length = std::uint64_t{1} << 16U;
+    Window piece = slices;
+    piece.distance = slices.slice_length;
+    for (std::uint64_t done = 0; done < slices.slice_length; done += length) {
+        piece.begin = slices.begin + done;
+        piece.slice_length = std::min(length, slices.slice_length - done);
+        take(static_cast<const Window&>(piece));
+    }
+}
+
 }  // namespace
 
 MeshSlice distribute_slices(const Mesh& mesh, const ProcessGroup& group) {
@@ -80,26 +93,36 @@ MeshSlice slice_of(MeshSource& mesh) {
     lists.attributes_per_point = facts.attributes_per_point;
     lists.index_base = facts.index_base;
     const int size = mesh.group().size();
-    const auto take = [](auto& list, auto span) { list.assign(span.begin(), span.end()); };
+    const auto take = [](auto& list, auto span) {
+        for (const auto& value : span) list.push_back(value);
+    };
     const auto take_numbers = [](auto& list, auto span) {
-        list.reserve(span.size());
         for (const auto& numbers : span) list.push_back(indices_of(numbers));
     };
+    const int rank = mesh.group().rank();
     const Window vertices = slices_of(facts.vertices, size);
-    take(lists.points, mesh.points(vertices));
-    if (facts.has_point_markers) take(lists.point_markers, mesh.point_markers(vertices));
-    if (facts.attributes_per_point > 0) {
-        take(lists.point_attributes, mesh.point_attributes(vertices));
-    }
+    lists.points.reserve(vertices.length_of(rank));
+    for_each_piece(vertices, [&](const Window& piece) {
+        take(lists.points, mesh.points(piece));
+        if (facts.has_point_markers) take(lists.point_markers, mesh.point_markers(piece));
+        if (facts.attributes_per_point > 0) {
+            take(lists.point_attributes, mesh.point_attributes(piece));
+        }
+    });
     const Window cells = slices_of(facts.cells, size);
-    take_numbers(lists.cells, mesh.cells(cells));
-    if (facts.has_regions) take(lists.regions, mesh.regions(cells));
-    const Window facets = slices_of(facts.facets, size);
-    take_numbers(lists.facets, mesh.facets(facets));
-    if (facts.has_facet_markers) take(lists.facet_markers, mesh.facet_markers(facets));
-    const Window edges = slices_of(facts.edges, size);
-    take_numbers(lists.edges, mesh.edges(edges));
-    if (facts.has_edge_markers) take(lists.edge_markers, mesh.edge_markers(edges));
+    lists.cells.reserve(cells.length_of(rank));
+    for_each_piece(cells, [&](const Window& piece) {
+        take_numbers(lists.cells, mesh.cells(piece));
+        if (facts.has_regions) take(lists.regions, mesh.regions(piece));
+    });
+    for_each_piece(slices_of(facts.facets, size), [&](const Window& piece) {
+        take_numbers(lists.facets, mesh.facets(piece));
+        if (facts.has_facet_markers) take(lists.facet_markers, mesh.facet_markers(piece));
+    });
+    for_each_piece(slices_of(facts.edges, size), [&](const Window& piece) {
+        take_numbers(lists.edges, mesh.edges(piece));
+        if (facts.has_edge_markers) take(lists.edge_markers, mesh.edge_markers(piece));
+    });
     return slice;
 }
 

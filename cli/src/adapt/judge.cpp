@@ -1,0 +1,89 @@
+#include "adapt/judge.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <octetra/distributed/canonical_mesh.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "adapt/maps_of_all.hpp"
+#include "adapt/step_texts.hpp"
+#include "commands/mesh_options.hpp"
+#include "terminal.hpp"
+#include "verdict/print_verdict.hpp"
+
+namespace octetra::cli {
+namespace {
+
+constexpr std::size_t described_of_each_code = 100;
+
+void note_unchecked(const std::string& coarse) {
+    note(
+        fmt::format("of {} itself, only orientation and faces were checked, not whether cells "
+                    "overlap: use octetra verify {}",
+                    coarse, coarse));
+}
+
+}  // namespace
+
+verify::MeshSlice slice_of(const distributed::AdaptiveMesh& mesh) {
+    distributed::CanonicalMesh canonical = mesh.canonical();
+    return verify::slice_of(canonical.whole());
+}
+
+verify::MeshSlice slice_of(const distributed::DistributedMesh& mesh) {
+    auto canonical = distributed::CanonicalMesh::of(mesh);
+    return verify::slice_of(canonical.whole());
+}
+
+bool is_valid_refinement(const Run& run, verify::MeshSlice coarse, verify::MeshSlice fine,
+                         const Judgement& judgement) {
+    const std::string& coarse_name = run.options->input.path;
+    const std::string& fine_name = run.options->output;
+    const JudgedFiles judged{fine_name, coarse_name, fine.lists.index_base,
+                             coarse.lists.index_base};
+    verify::VerifyOptions options{.request = judgement.request,
+                                  .kept_per_code = described_of_each_code};
+    if (judgement.is_regular && run.world.is_first()) {
+        note(std::string(regular_closure_is_unchecked));
+    }
+    RefinementMaps maps;
+    if (judgement.maps != nullptr) {
+        maps = maps_of_all(*judgement.maps, run.world);
+        options.maps = &maps;
+    }
+    const auto verdict =
+        verify::verify_refinement(std::move(coarse), std::move(fine), run.world, options);
+    if (!run.world.is_first()) return verdict.valid();
+    if (!verdict.valid()) {
+        print_verdict(verdict, judged);
+        print("{} written\n",
+              judgement.is_only_output ? "nothing was" : fmt::format("{} was not", fine_name));
+    } else if (!run.options->check) {
+        note_unchecked(coarse_name);
+    }
+    return verdict.valid();
+}
+
+bool is_valid_coarsening(const Run& run, const distributed::AdaptiveMesh& after,
+                         const Coarsened& asked) {
+    const distributed::Phase phase(run.world, "verify");
+    const std::string& name = run.options->output;
+    const Mesh whole = after.collect();
+    bool valid = true;
+    run.world.on_first([&] {
+        JudgedFiles judged;
+        const auto verdict =
+            judge_coarsened(asked, whole, name, {.kept_per_code = described_of_each_code}, judged);
+        valid = verdict.valid();
+        if (valid) return note_unchecked(asked.before);
+        print_verdict(verdict, judged);
+        print("{} was not written\n", name);
+    });
+    return run.world.of_first(std::uint64_t{valid ? 1U : 0U}) != 0;
+}
+
+}  // namespace octetra::cli

@@ -8,6 +8,7 @@
 #include <octetra/core/files/mesh_files.hpp>
 
 #include "core/gmsh_files.hpp"
+#include "core/refused_files.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
@@ -19,6 +20,7 @@ namespace {
 using test::gmsh_cell_2;
 using test::gmsh_head_2;
 using test::gmsh_nodes_2;
+using test::RefusedFiles;
 using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -84,56 +86,39 @@ TEST(GmshNames, AreReadIfTheyAreNoLongerThanALineMayBe) {
     }
 }
 
-struct BadName {
-    std::string name;
-    std::string content;
-    std::string place;
-    std::string what;
+const std::vector<test::Refusal<std::string>> bad_names{
+    {"NameTwice", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"a\"\n3 7 \"b\"\n", 7,
+     "group 7 of dimension 3 has two names"},
+    {"NameOfNoGroup", gmsh_head_2 + "$PhysicalNames\n1\n7 \"a\"\n", 6,
+     "a line of its dimension, its tag and \"the name\""},
+    {"NameOfADimension", gmsh_head_2 + "$PhysicalNames\n1\n4 7 \"a\"\n", 6,
+     "a line of its dimension"},
+    {"NameOfANegativeDimension", gmsh_head_2 + "$PhysicalNames\n1\n-3 7 \"a\"\n", 6,
+     "a line of its dimension"},
+    {"NameOfAHugeTag", gmsh_head_2 + "$PhysicalNames\n1\n3 2147483648 \"a\"\n", 6,
+     "a line of its dimension"},
+    {"NameWithoutQuotes", gmsh_head_2 + "$PhysicalNames\n1\n3 7 rock\n", 6,
+     "a line of its dimension"},
+    {"NameTwiceBesideOneLeftOut", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"\"\n3 7 \"b\"\n", 7,
+     "group 7 of dimension 3 has two names"},
+    {"FewerNamesThanAreThere",
+     gmsh_head_2 + "$PhysicalNames\n1\n3 7 \"a\"\n3 8 \"b\"\n$EndPhysicalNames\n", 7,
+     "'$EndPhysicalNames' expected"},
+    {"NamesTwice", gmsh_head_2 + "$PhysicalNames\n0\n$EndPhysicalNames\n$PhysicalNames\n", 7,
+     "a second section $PhysicalNames"},
+    {"NameWithoutItsEndBinary",
+     test::gmsh_binary_4().insert(binary_head, "$PhysicalNames\n1\n3 7 \"a\n$EndPhysicalNames\n"),
+     ": at byte ", "a line of its dimension"},
+    {"NameWithoutItsEnd", gmsh_head_2 + "$PhysicalNames\n1\n3 7 \"a\n", 6,
+     "a line of its dimension"},
+    {"HugeNames", gmsh_head_2 + "$PhysicalNames\n99999999\n", 5, "holds at most"},
+    {"NamesEnd", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"a\"\n", 6,
+     "the file ends where the name of a group should be"},
 };
 
-class BadGmshNames : public testing::TestWithParam<BadName> {};
-
-TEST_P(BadGmshNames, AreRefusedWithPositionAndReason) {
-    const auto& [name, content, place, what] = GetParam();
-    const std::string message =
-        test::thrown_by<InputError>([&, &content = content] { (void)test::read_gmsh(content); });
-    EXPECT_THAT(message, HasSubstr("/m.msh:" + place));
-    EXPECT_THAT(message, HasSubstr(what));
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Sections, BadGmshNames,
-    testing::ValuesIn(std::vector<BadName>{
-        {"NameTwice", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"a\"\n3 7 \"b\"\n",
-         "7: ", "group 7 of dimension 3 has two names"},
-        {"NameOfNoGroup", gmsh_head_2 + "$PhysicalNames\n1\n7 \"a\"\n",
-         "6: ", "a line of its dimension, its tag and \"the name\""},
-        {"NameOfADimension", gmsh_head_2 + "$PhysicalNames\n1\n4 7 \"a\"\n",
-         "6: ", "a line of its dimension"},
-        {"NameOfANegativeDimension", gmsh_head_2 + "$PhysicalNames\n1\n-3 7 \"a\"\n",
-         "6: ", "a line of its dimension"},
-        {"NameOfAHugeTag", gmsh_head_2 + "$PhysicalNames\n1\n3 2147483648 \"a\"\n",
-         "6: ", "a line of its dimension"},
-        {"NameWithoutQuotes", gmsh_head_2 + "$PhysicalNames\n1\n3 7 rock\n",
-         "6: ", "a line of its dimension"},
-        {"NameTwiceBesideOneLeftOut", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"\"\n3 7 \"b\"\n",
-         "7: ", "group 7 of dimension 3 has two names"},
-        {"FewerNamesThanAreThere",
-         gmsh_head_2 + "$PhysicalNames\n1\n3 7 \"a\"\n3 8 \"b\"\n$EndPhysicalNames\n",
-         "7: ", "'$EndPhysicalNames' expected"},
-        {"NamesTwice", gmsh_head_2 + "$PhysicalNames\n0\n$EndPhysicalNames\n$PhysicalNames\n",
-         "7: ", "a second section $PhysicalNames"},
-        {"NameWithoutItsEndBinary",
-         test::gmsh_binary_4().insert(binary_head,
-                                      "$PhysicalNames\n1\n3 7 \"a\n$EndPhysicalNames\n"),
-         " at byte ", "a line of its dimension"},
-        {"NameWithoutItsEnd", gmsh_head_2 + "$PhysicalNames\n1\n3 7 \"a\n",
-         "6: ", "a line of its dimension"},
-        {"HugeNames", gmsh_head_2 + "$PhysicalNames\n99999999\n", "5: ", "holds at most"},
-        {"NamesEnd", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"a\"\n",
-         "6: ", "the file ends where the name of a group should be"},
-    }),
-    [](const auto& test_case) { return test_case.param.name; });
+INSTANTIATE_TEST_SUITE_P(GmshNames, RefusedFiles,
+                         test::refusals("m.msh", test::read_refused_gmsh, bad_names),
+                         test::name_of_case);
 
 }  // namespace
 }  // namespace octetra

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <ostream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include <octetra/core/files/mesh_files.hpp>
 
 #include "core/gmsh_files.hpp"
+#include "core/refused_files.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
@@ -31,163 +31,144 @@ using test::gmsh_head_2;
 using test::gmsh_head_4;
 using test::gmsh_nodes_2;
 using test::gmsh_nodes_4;
+using test::RefusedFiles;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-struct BadContent {
-    std::string name;
-    std::string content;
-    std::string place;  // "LINE: ", or "at byte N: "
-    std::string what;
-};
-
-void PrintTo(const BadContent& test_case, std::ostream* out) { *out << test_case.name; }
-
-class BadGmshFile : public testing::TestWithParam<BadContent> {};
-
-TEST_P(BadGmshFile, IsRefusedWithPositionAndReason) {
-    const auto& [name, content, place, what] = GetParam();
-    const std::string message =
-        test::thrown_by<InputError>([&, &content = content] { (void)test::read_gmsh(content); });
-    EXPECT_THAT(message, HasSubstr("/m.msh:" + place));
-    EXPECT_THAT(message, HasSubstr(what));
-}
-
-const auto named_by_case = [](const auto& test_case) { return test_case.param.name; };
+using Rows = std::vector<test::Refusal<std::string>>;
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
     return text.replace(text.find(from), from.size(), to);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Head, BadGmshFile,
-    testing::ValuesIn(std::vector<BadContent>{
-        {"Empty", "", "1: ", "the file is empty"},
-        {"Garbage", "\x01\x02\n", "1: ", "is $MeshFormat, not '\\x01\\x02'"},
-        {"AfterComments", "$Comments\nnone\n$EndComments\n$Nodes\n",
-         "4: ", "the first section of a Gmsh file, after comments, is $MeshFormat, not '$Nodes'"},
-        {"OnlyComments", "$Comments\nnone\n$EndComments\n",
-         "3: ", "the file ends where the section $MeshFormat should be"},
-        {"OfMfem", "MFEM mesh v1.0\n\ndimension\n3\n",
-         "1: ", "this is a mesh of MFEM; of .msh files"},
-        {"Version1", "$NOD\n1\n1 0 0 0\n$ENDNOD\n", "1: ", "version 1 is not supported: save"},
-        {"Version40", "$MeshFormat\n4 0 8\n$EndMeshFormat\n", "2: ", "-format msh41"},
-        {"Version3", "$MeshFormat\n3 0 8\n", "2: ", "versions 2.2 and 4.1 are supported, not '3'"},
-        {"Type", "$MeshFormat\n4.1 2 8\n", "2: ", "0 (text) or 1 (binary), not 2"},
-        {"SizeOfNumbers", "$MeshFormat\n4.1 1 4\n", "2: ", "numbers of 8 bytes, not 4"},
-        {"EndsAtOnce", "$MeshFormat\n", "1: ", "the file ends where its version should be"},
-        {"NoEndOfFormat", "$MeshFormat\n4.1 0 8\n$Nodes\n", "3: ", "'$EndMeshFormat' expected"},
-        {"ByteOrder", test::BinaryBytes().text("$MeshFormat\n4.1 1 8\n").ints({2}),
-         " at byte 20: ", "the number 1 should be here, not 2"},
-        {"NoNodes", gmsh_head_4, "3: ", "there is no section $Nodes"},
-        {"NoElements", gmsh_head_4 + gmsh_nodes_4, "15: ", "there is no section $Elements"},
-        {"NoElementsBinary",
-         test::gmsh_binary_head("4.1") + "$Nodes\n" +
-             test::BinaryBytes().sizes({0, 0, 0, 0}).text("\n$EndNodes\n").bytes(),
-         " at byte 90: ", "there is no section $Elements"},
-    }),
-    named_by_case);
+const Rows bad_heads{
+    {"Empty", "", 1, "the file is empty"},
+    {"Garbage", "\x01\x02\n", 1, "is $MeshFormat, not '\\x01\\x02'"},
+    {"AfterComments", "$Comments\nnone\n$EndComments\n$Nodes\n", 4,
+     "the first section of a Gmsh file, after comments, is $MeshFormat, not '$Nodes'"},
+    {"OnlyComments", "$Comments\nnone\n$EndComments\n", 3,
+     "the file ends where the section $MeshFormat should be"},
+    {"OfMfem", "MFEM mesh v1.0\n\ndimension\n3\n", 1, "this is a mesh of MFEM; of .msh files"},
+    {"Version1", "$NOD\n1\n1 0 0 0\n$ENDNOD\n", 1, "version 1 is not supported: save"},
+    {"Version40", "$MeshFormat\n4 0 8\n$EndMeshFormat\n", 2, "-format msh41"},
+    {"Version3", "$MeshFormat\n3 0 8\n", 2, "versions 2.2 and 4.1 are supported, not '3'"},
+    {"Type", "$MeshFormat\n4.1 2 8\n", 2, "0 (text) or 1 (binary), not 2"},
+    {"SizeOfNumbers", "$MeshFormat\n4.1 1 4\n", 2, "numbers of 8 bytes, not 4"},
+    {"EndsAtOnce", "$MeshFormat\n", 1, "the file ends where its version should be"},
+    {"NoEndOfFormat", "$MeshFormat\n4.1 0 8\n$Nodes\n", 3, "'$EndMeshFormat' expected"},
+    {"ByteOrder", test::BinaryBytes().text("$MeshFormat\n4.1 1 8\n").ints({2}), test::at_byte(20),
+     "the number 1 should be here, not 2"},
+    {"NoNodes", gmsh_head_4, 3, "there is no section $Nodes"},
+    {"NoElements", gmsh_head_4 + gmsh_nodes_4, 15, "there is no section $Elements"},
+    {"NoElementsBinary",
+     test::gmsh_binary_head("4.1") + "$Nodes\n" +
+         test::BinaryBytes().sizes({0, 0, 0, 0}).text("\n$EndNodes\n").bytes(),
+     test::at_byte(90), "there is no section $Elements"},
+};
 
-INSTANTIATE_TEST_SUITE_P(
-    Sections, BadGmshFile,
-    testing::ValuesIn(std::vector<BadContent>{
-        {"Order", gmsh_head_2 + gmsh_cell_2, "4: ", "$Nodes must come before $Elements"},
-        {"Second", gmsh_head_2 + gmsh_nodes_2 + gmsh_nodes_2, "11: ", "a second section $Nodes"},
-        {"EntitiesLate", gmsh_head_4 + gmsh_nodes_4 + gmsh_cell_4 + gmsh_entities_4,
-         "21: ", "$Entities is not allowed here"},
-        {"EntitiesOf2", gmsh_head_2 + gmsh_entities_4, "4: ", "$Entities is not allowed here"},
-        {"Parametric", gmsh_head_2 + "$ParametricNodes\n", "4: ", "without Mesh.SaveParametric"},
-        {"StrayEnd", gmsh_head_2 + "$EndNodes\n", "4: ", "'$EndNodes' ends no section"},
-        {"NoSection", gmsh_head_2 + "Nodes\n", "4: ", "a section, $..., expected, 'Nodes' found"},
-        {"NoEndOfSkipped", gmsh_head_2 + "$Periodic\n0\n",
-         "5: ", "ends within the section 'Periodic'"},
-        {"NoEndOfSkippedBinary", test::gmsh_binary_4() + "$Periodic\n$EndPerio", " at byte ",
-         "ends within the section 'Periodic'"},
-        {"WrongEnd", replaced(gmsh_head_2 + gmsh_nodes_2, "$EndNodes", "$EndElements"),
-         "10: ", "'$EndNodes' expected, '$EndElements' found"},
-        {"NoEnd", gmsh_head_2 + "$Nodes\n0\n", "5: ", "the file ends where $EndNodes should be"},
-    }),
-    named_by_case);
+INSTANTIATE_TEST_SUITE_P(GmshHead, RefusedFiles,
+                         test::refusals("m.msh", test::read_refused_gmsh, bad_heads),
+                         test::name_of_case);
 
-INSTANTIATE_TEST_SUITE_P(
-    Nodes, BadGmshFile,
-    testing::ValuesIn(std::vector<BadContent>{
-        {"HugeCount2", gmsh_head_2 + "$Nodes\n4000000000\n", "5: ", "holds at most"},
-        {"HugeCount4", gmsh_head_4 + "$Nodes\n1 18446744073709551615 1 4\n",
-         "5: ", "holds at most"},
-        {"Ends", gmsh_head_2 + "$Nodes\n2\n1 0 0 0\n2 0 0", "7: ", "the file ends where z"},
-        {"NaN", gmsh_head_2 + "$Nodes\n1\n1 0 nan 0\n", "6: ", "y is not finite"},
-        {"Beyond", gmsh_head_2 + "$Nodes\n1\n1 0 -9e307 0\n", "6: ", "2^1023"},
-        {"Twice2", gmsh_head_2 + "$Nodes\n3\n1 0 0 0\n2 1 0 0\n1 0 1 0\n$EndNodes\n",
-         "8: ", "a second node 1"},
-        {"TwiceFarApart", gmsh_head_2 + "$Nodes\n3\n1 0 0 0\n1000000 1 0 0\n1000000 0 1 0\n",
-         "8: ", "a second node 1000000"},
-        {"Twice4", replaced(gmsh_head_4 + gmsh_nodes_4, "\n3\n", "\n2\n"),
-         "9: ", "a second node 2"},
-        {"NegativeTag", gmsh_head_2 + "$Nodes\n1\n-1 0 0 0\n", "6: ", "a whole number from 0"},
-        {"Dimension", gmsh_head_4 + "$Nodes\n1 1 1 1\n4 1 0 1\n", "6: ", "0 to 3, not 4"},
-        {"TooMany", gmsh_head_4 + "$Nodes\n1 1 1 1\n3 1 0 2\n",
-         "6: ", "a block of 2 nodes, where 1 of those announced remain"},
-        {"TooFew", gmsh_head_4 + "$Nodes\n1 2 1 2\n3 1 0 1\n1\n0 0 0\n$EndNodes\n$Elements\n",
-         "8: ", "1 of the 2 nodes announced are missing"},
-    }),
-    named_by_case);
+const Rows bad_sections{
+    {"Order", gmsh_head_2 + gmsh_cell_2, 4, "$Nodes must come before $Elements"},
+    {"Second", gmsh_head_2 + gmsh_nodes_2 + gmsh_nodes_2, 11, "a second section $Nodes"},
+    {"EntitiesLate", gmsh_head_4 + gmsh_nodes_4 + gmsh_cell_4 + gmsh_entities_4, 21,
+     "$Entities is not allowed here"},
+    {"EntitiesOf2", gmsh_head_2 + gmsh_entities_4, 4, "$Entities is not allowed here"},
+    {"Parametric", gmsh_head_2 + "$ParametricNodes\n", 4, "without Mesh.SaveParametric"},
+    {"StrayEnd", gmsh_head_2 + "$EndNodes\n", 4, "'$EndNodes' ends no section"},
+    {"NoSection", gmsh_head_2 + "Nodes\n", 4, "a section, $..., expected, 'Nodes' found"},
+    {"NoEndOfSkipped", gmsh_head_2 + "$Periodic\n0\n", 5, "ends within the section 'Periodic'"},
+    {"NoEndOfSkippedBinary", test::gmsh_binary_4() + "$Periodic\n$EndPerio", ": at byte ",
+     "ends within the section 'Periodic'"},
+    {"WrongEnd", replaced(gmsh_head_2 + gmsh_nodes_2, "$EndNodes", "$EndElements"), 10,
+     "'$EndNodes' expected, '$EndElements' found"},
+    {"NoEnd", gmsh_head_2 + "$Nodes\n0\n", 5, "the file ends where $EndNodes should be"},
+};
 
-INSTANTIATE_TEST_SUITE_P(
-    Elements, BadGmshFile,
-    testing::ValuesIn(std::vector<BadContent>{
-        {"HugeCount2", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n99999\n", "12: ", "holds at most"},
-        {"HugeBlock", gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 9 1 1\n3 1 4 10\n",
-         "18: ", "a block of 10 elements, where 9 of those announced remain"},
-        {"Missing",
-         gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 2 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n",
-         "19: ", "1 of the 2 elements announced are missing"},
-        {"Ends", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 7 1 1 2 3",
-         "13: ", "the file ends where a node's number should be"},
-        {"NoSuchNode2", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 7 1 1 2 3 5\n",
-         "13: ", "there is no node 5"},
-        {"NoSuchNode4", gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 1 1 1\n3 1 4 1\n1 0 2 3 4\n",
-         "19: ", "there is no node 0"},
-        {"SecondOrder", gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 1 1 1\n3 1 11 1\n",
-         "18: ", "only tetrahedra of 4 nodes are supported, and these have 10: mesh again with"},
-        {"SecondOrder2", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 11 2 7 1 1 2 3 4\n",
-         "13: ", "only tetrahedra of 4 nodes are supported, and these have 10: mesh again with"},
-        {"Hexahedra", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 5 2 7 1 1 2 3 4\n",
-         "13: ", "only tetrahedral meshes are supported, and this one has hexahedra"},
-        {"Unknown", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 999 2 7 1 1 2 3 4\n",
-         "13: ", "elements of type 999 are not known"},
-        {"VertexTwice", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 7 1 1 2 3 3\n",
-         "13: ", "the cell has the same vertex twice"},
-        {"TriangleVertexTwice", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 2 2 7 1 1 2 1\n",
-         "13: ", "the triangle has the same vertex twice"},
-        {"Inverted", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 7 1 2 1 3 4\n",
-         "13: ", "the cell is inverted"},
-        {"CellTwice",
-         gmsh_head_4 + gmsh_nodes_4 +
-             "$Elements\n2 2 1 2\n3 1 4 1\n1 1 2 3 4\n3 1 4 1\n2 2 3 1 4\n$EndElements\n",
-         "21: ", "cell 2 has the vertices of cell 1 (line 19): remove one of them"},
-        {"TrianglesAlone",
-         gmsh_head_2 + gmsh_nodes_2 +
-             "$Elements\n2\n1 2 2 7 1 1 2 3\n2 2 2 7 1 1 2 4\n$EndElements\n",
-         "13: ", "there are triangles and no tetrahedra: mesh the volumes with gmsh -3"},
-        {"TrianglesOfSecondOrderAlone",
-         gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 1 1 1\n2 1 9 1\n1 1 2 3 1 2 3\n$EndElements\n",
-         "20: ", "there are triangles and no tetrahedra: mesh the volumes with gmsh -3"},
-        {"LinesAlone", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 1 2 7 1 2 2\n$EndElements\n",
-         "14: ", "there are lines and no tetrahedra"},
-        {"CommentsWithoutEnd", "$Comments\nof its maker\n" + gmsh_head_2,
-         "5: ", "the file ends within the section 'Comments'"},
-        {"TriangleOfNoCell",
-         gmsh_head_2 + replaced(gmsh_nodes_2, "$Nodes\n4\n", "$Nodes\n5\n5 9 9 9\n") +
-             "$Elements\n2\n1 4 2 7 1 1 2 3 4\n2 2 2 7 1 1 2 5\n$EndElements\n",
-         "15: ", "triangle 1 belongs to no cell"},
-        {"LineWithTwoMarkers",
-         gmsh_head_2 + gmsh_nodes_2 +
-             "$Elements\n4\n10 1 2 5 1 1 2\n11 4 2 7 1 1 2 3 4\n12 2 2 3 1 1 2 3\n13 1 2 6 2 2 "
-             "1\n$EndElements\n",
-         "16: ", "line 2 with marker 6 is listed already, with marker 5, as line 1 (line 13)"},
-    }),
-    named_by_case);
+INSTANTIATE_TEST_SUITE_P(GmshSections, RefusedFiles,
+                         test::refusals("m.msh", test::read_refused_gmsh, bad_sections),
+                         test::name_of_case);
+
+const Rows bad_nodes{
+    {"HugeCount2", gmsh_head_2 + "$Nodes\n4000000000\n", 5, "holds at most"},
+    {"HugeCount4", gmsh_head_4 + "$Nodes\n1 18446744073709551615 1 4\n", 5, "holds at most"},
+    {"Ends", gmsh_head_2 + "$Nodes\n2\n1 0 0 0\n2 0 0", 7, "the file ends where z"},
+    {"NaN", gmsh_head_2 + "$Nodes\n1\n1 0 nan 0\n", 6, "y is not finite"},
+    {"Beyond", gmsh_head_2 + "$Nodes\n1\n1 0 -9e307 0\n", 6, "2^1023"},
+    {"Twice2", gmsh_head_2 + "$Nodes\n3\n1 0 0 0\n2 1 0 0\n1 0 1 0\n$EndNodes\n", 8,
+     "a second node 1"},
+    {"TwiceFarApart", gmsh_head_2 + "$Nodes\n3\n1 0 0 0\n1000000 1 0 0\n1000000 0 1 0\n", 8,
+     "a second node 1000000"},
+    {"Twice4", replaced(gmsh_head_4 + gmsh_nodes_4, "\n3\n", "\n2\n"), 9, "a second node 2"},
+    {"NegativeTag", gmsh_head_2 + "$Nodes\n1\n-1 0 0 0\n", 6, "a whole number from 0"},
+    {"Dimension", gmsh_head_4 + "$Nodes\n1 1 1 1\n4 1 0 1\n", 6, "0 to 3, not 4"},
+    {"TooMany", gmsh_head_4 + "$Nodes\n1 1 1 1\n3 1 0 2\n", 6,
+     "a block of 2 nodes, where 1 of those announced remain"},
+    {"TooFew", gmsh_head_4 + "$Nodes\n1 2 1 2\n3 1 0 1\n1\n0 0 0\n$EndNodes\n$Elements\n", 8,
+     "1 of the 2 nodes announced are missing"},
+};
+
+INSTANTIATE_TEST_SUITE_P(GmshNodes, RefusedFiles,
+                         test::refusals("m.msh", test::read_refused_gmsh, bad_nodes),
+                         test::name_of_case);
+
+const Rows bad_elements{
+    {"HugeCount2", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n99999\n", 12, "holds at most"},
+    {"HugeBlock", gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 9 1 1\n3 1 4 10\n", 18,
+     "a block of 10 elements, where 9 of those announced remain"},
+    {"Missing",
+     gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 2 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n", 19,
+     "1 of the 2 elements announced are missing"},
+    {"Ends", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 7 1 1 2 3", 13,
+     "the file ends where a node's number should be"},
+    {"NoSuchNode2", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 7 1 1 2 3 5\n", 13,
+     "there is no node 5"},
+    {"NoSuchNode4", gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 1 1 1\n3 1 4 1\n1 0 2 3 4\n", 19,
+     "there is no node 0"},
+    {"SecondOrder", gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 1 1 1\n3 1 11 1\n", 18,
+     "only tetrahedra of 4 nodes are supported, and these have 10: mesh again with"},
+    {"SecondOrder2", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 11 2 7 1 1 2 3 4\n", 13,
+     "only tetrahedra of 4 nodes are supported, and these have 10: mesh again with"},
+    {"Hexahedra", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 5 2 7 1 1 2 3 4\n", 13,
+     "only tetrahedral meshes are supported, and this one has hexahedra"},
+    {"Unknown", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 999 2 7 1 1 2 3 4\n", 13,
+     "elements of type 999 are not known"},
+    {"VertexTwice", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 7 1 1 2 3 3\n", 13,
+     "the cell has the same vertex twice"},
+    {"TriangleVertexTwice", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 2 2 7 1 1 2 1\n", 13,
+     "the triangle has the same vertex twice"},
+    {"Inverted", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 7 1 2 1 3 4\n", 13,
+     "the cell is inverted"},
+    {"CellTwice",
+     gmsh_head_4 + gmsh_nodes_4 +
+         "$Elements\n2 2 1 2\n3 1 4 1\n1 1 2 3 4\n3 1 4 1\n2 2 3 1 4\n$EndElements\n",
+     21, "cell 2 has the vertices of cell 1 (line 19): remove one of them"},
+    {"TrianglesAlone",
+     gmsh_head_2 + gmsh_nodes_2 + "$Elements\n2\n1 2 2 7 1 1 2 3\n2 2 2 7 1 1 2 4\n$EndElements\n",
+     13, "there are triangles and no tetrahedra: mesh the volumes with gmsh -3"},
+    {"TrianglesOfSecondOrderAlone",
+     gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 1 1 1\n2 1 9 1\n1 1 2 3 1 2 3\n$EndElements\n", 20,
+     "there are triangles and no tetrahedra: mesh the volumes with gmsh -3"},
+    {"LinesAlone", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 1 2 7 1 2 2\n$EndElements\n", 14,
+     "there are lines and no tetrahedra"},
+    {"CommentsWithoutEnd", "$Comments\nof its maker\n" + gmsh_head_2, 5,
+     "the file ends within the section 'Comments'"},
+    {"TriangleOfNoCell",
+     gmsh_head_2 + replaced(gmsh_nodes_2, "$Nodes\n4\n", "$Nodes\n5\n5 9 9 9\n") +
+         "$Elements\n2\n1 4 2 7 1 1 2 3 4\n2 2 2 7 1 1 2 5\n$EndElements\n",
+     15, "triangle 1 belongs to no cell"},
+    {"LineWithTwoMarkers",
+     gmsh_head_2 + gmsh_nodes_2 +
+         "$Elements\n4\n10 1 2 5 1 1 2\n11 4 2 7 1 1 2 3 4\n12 2 2 3 1 1 2 3\n13 1 2 6 2 2 "
+         "1\n$EndElements\n",
+     16, "line 2 with marker 6 is listed already, with marker 5, as line 1 (line 13)"},
+};
+
+INSTANTIATE_TEST_SUITE_P(GmshElements, RefusedFiles,
+                         test::refusals("m.msh", test::read_refused_gmsh, bad_elements),
+                         test::name_of_case);
 
 /// Replaces bytes at a position.
 std::string patched(std::string file, std::size_t place, const std::string& bytes) {
@@ -210,54 +191,55 @@ const std::size_t elements_4 = behind(binary_4, "$Elements\n");
 const std::size_t nodes_2 = behind(binary_2, "$Nodes\n4\n");
 const std::size_t elements_2 = behind(binary_2, "$Elements\n1\n");
 
-BadContent binary_case(const std::string& name, const std::string& file, std::size_t place,
-                       auto number, std::size_t blamed, const std::string& what) {
-    return {name, patched(file, place, bytes_of_number(number)),
-            " at byte " + std::to_string(blamed) + ": ", what};
+test::Refusal<std::string> binary_case(const std::string& name, const std::string& file,
+                                       std::size_t place, auto number, std::size_t blamed,
+                                       const std::string& what) {
+    return {name, patched(file, place, bytes_of_number(number)), test::at_byte(blamed), what};
 }
 
 constexpr std::uint64_t huge = std::uint64_t{1} << 62U;
 
-INSTANTIATE_TEST_SUITE_P(
-    Binary, BadGmshFile,
-    testing::Values(
-        binary_case("HugeEntities", binary_4, entities_4 + 24, huge, entities_4 + 32, "announced"),
-        binary_case("HugeTags", binary_4, entities_4 + 84, huge, entities_4 + 92, "announced"),
-        binary_case("HugeNodes", binary_4, nodes_4 + 8, huge, nodes_4 + 16, "announced"),
-        binary_case("HugeBlock", binary_4, nodes_4 + 44, huge, nodes_4 + 52,
-                    "where 4 of those announced remain"),
-        binary_case("NoBlocks", binary_4, nodes_4, std::uint64_t{0}, nodes_4 + 32,
-                    "4 of the 4 nodes announced are missing"),
-        binary_case("TagTwice", binary_4, nodes_4 + 60, std::uint64_t{1}, nodes_4 + 60,
-                    "a second node 1"),
-        binary_case("NaN", binary_4, nodes_4 + 84 + 8, std::nan(""), nodes_4 + 84 + 8,
-                    "y is not finite: nan"),
-        binary_case("Beyond", binary_4, nodes_4 + 84, 0x1p1023, nodes_4 + 84, "2^1023"),
-        binary_case("HugeElements", binary_4, elements_4 + 8, huge, elements_4 + 16, "announced"),
-        binary_case("Type", binary_4, elements_4 + 40, std::int32_t{-4}, elements_4 + 40,
-                    "should be a whole number from 0, not -4"),
-        binary_case("SecondOrder", binary_4, elements_4 + 40, std::int32_t{11}, elements_4 + 32,
-                    "only tetrahedra of 4 nodes are supported, and these have 10"),
-        binary_case("NoSuchNode", binary_4, elements_4 + 60, std::uint64_t{5}, elements_4 + 52,
-                    "there is no node 5"),
-        binary_case("VertexTwice", binary_4, elements_4 + 60, std::uint64_t{2}, elements_4 + 52,
-                    "the cell has the same vertex twice"),
-        binary_case("Node2", binary_2, nodes_2 + 28, std::int32_t{-2}, nodes_2 + 28,
-                    "should be a whole number from 0, not -2"),
-        binary_case("Infinite2", binary_2, nodes_2 + 4, std::numeric_limits<double>::infinity(),
-                    nodes_2 + 4, "x is not finite: inf"),
-        binary_case("Block2", binary_2, elements_2 + 4, std::int32_t{2}, elements_2,
-                    "2 elements, where 1 remain"),
-        binary_case("EmptyBlock2", binary_2, elements_2 + 4, std::int32_t{0}, elements_2,
-                    "0 elements, where 1 remain"),
-        binary_case("HugeTags2", binary_2, elements_2 + 8, std::int32_t{2000000000},
-                    binary_2.size() - 2, "the file ends where a tag should be"),
-        binary_case("NoSuchNode2", binary_2, elements_2 + 24, std::int32_t{9}, elements_2 + 12,
-                    "there is no node 9"),
-        BadContent{"Count2", replaced(binary_2, "$Nodes\n4\n", "$Nodes\nx\n"),
-                   " at byte " + std::to_string(nodes_2 - 2) + ": ",
-                   "the number of nodes should be a whole number from 0, not 'x'"}),
-    named_by_case);
+const Rows bad_binaries{
+    binary_case("HugeEntities", binary_4, entities_4 + 24, huge, entities_4 + 32, "announced"),
+    binary_case("HugeTags", binary_4, entities_4 + 84, huge, entities_4 + 92, "announced"),
+    binary_case("HugeNodes", binary_4, nodes_4 + 8, huge, nodes_4 + 16, "announced"),
+    binary_case("HugeBlock", binary_4, nodes_4 + 44, huge, nodes_4 + 52,
+                "where 4 of those announced remain"),
+    binary_case("NoBlocks", binary_4, nodes_4, std::uint64_t{0}, nodes_4 + 32,
+                "4 of the 4 nodes announced are missing"),
+    binary_case("TagTwice", binary_4, nodes_4 + 60, std::uint64_t{1}, nodes_4 + 60,
+                "a second node 1"),
+    binary_case("NaN", binary_4, nodes_4 + 84 + 8, std::nan(""), nodes_4 + 84 + 8,
+                "y is not finite: nan"),
+    binary_case("Beyond", binary_4, nodes_4 + 84, 0x1p1023, nodes_4 + 84, "2^1023"),
+    binary_case("HugeElements", binary_4, elements_4 + 8, huge, elements_4 + 16, "announced"),
+    binary_case("Type", binary_4, elements_4 + 40, std::int32_t{-4}, elements_4 + 40,
+                "should be a whole number from 0, not -4"),
+    binary_case("SecondOrder", binary_4, elements_4 + 40, std::int32_t{11}, elements_4 + 32,
+                "only tetrahedra of 4 nodes are supported, and these have 10"),
+    binary_case("NoSuchNode", binary_4, elements_4 + 60, std::uint64_t{5}, elements_4 + 52,
+                "there is no node 5"),
+    binary_case("VertexTwice", binary_4, elements_4 + 60, std::uint64_t{2}, elements_4 + 52,
+                "the cell has the same vertex twice"),
+    binary_case("Node2", binary_2, nodes_2 + 28, std::int32_t{-2}, nodes_2 + 28,
+                "should be a whole number from 0, not -2"),
+    binary_case("Infinite2", binary_2, nodes_2 + 4, std::numeric_limits<double>::infinity(),
+                nodes_2 + 4, "x is not finite: inf"),
+    binary_case("Block2", binary_2, elements_2 + 4, std::int32_t{2}, elements_2,
+                "2 elements, where 1 remain"),
+    binary_case("EmptyBlock2", binary_2, elements_2 + 4, std::int32_t{0}, elements_2,
+                "0 elements, where 1 remain"),
+    binary_case("HugeTags2", binary_2, elements_2 + 8, std::int32_t{2000000000},
+                binary_2.size() - 2, "the file ends where a tag should be"),
+    binary_case("NoSuchNode2", binary_2, elements_2 + 24, std::int32_t{9}, elements_2 + 12,
+                "there is no node 9"),
+    {"Count2", replaced(binary_2, "$Nodes\n4\n", "$Nodes\nx\n"), test::at_byte(nodes_2 - 2),
+     "the number of nodes should be a whole number from 0, not 'x'"},
+};
+
+INSTANTIATE_TEST_SUITE_P(GmshBinary, RefusedFiles,
+                         test::refusals("m.msh", test::read_refused_gmsh, bad_binaries),
+                         test::name_of_case);
 
 std::vector<std::string> lines_in(const std::string& text) {
     std::vector<std::string> lines;

@@ -1,6 +1,5 @@
 #include <cstdlib>
 #include <limits>
-#include <ostream>
 #include <random>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 
 #include "core/mesh_shares.hpp"
 #include "core/meshb_files.hpp"
+#include "core/refused_files.hpp"
 #include "files/medit/medit.hpp"
 #include "support/bits.hpp"
 #include "support/meshes.hpp"
@@ -25,6 +25,7 @@ namespace octetra {
 namespace {
 
 using test::MeshbFile;
+using test::RefusedFiles;
 using test::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -37,10 +38,7 @@ MeshbFile meshb_start(int version = 2, bool swapped = false) {
 MeshbFile corner(int version = 2) { return std::move(meshb_start(version).corner()); }
 
 Mesh read_bytes(const std::string& bytes, const ReadOptions& options = {}) {
-    const TemporaryFolder folder;
-    const auto file = folder.write("m.meshb", bytes);
-    test::expect_correct_shares(file);
-    return read_mesh(file, options);
+    return test::read_content("m.meshb", bytes, options);
 }
 
 /// One cell, a triangle and an edge, all with tags, read from the text format.
@@ -130,32 +128,14 @@ TEST(MeshbReader, CorrectsInvertedCellsIfRequested) {
               (CellVertices{VertexIndex{1}, VertexIndex{0}, VertexIndex{3}, VertexIndex{2}}));
 }
 
-struct BadBytes {
-    std::string name;
-    std::string bytes;
-    std::size_t at;  ///< the byte that the message names
-    std::string what;
-};
+using Row = test::Refusal<std::string>;
 
-void PrintTo(const BadBytes& test_case, std::ostream* out) { *out << test_case.name; }
-
-class BadMeshbFile : public testing::TestWithParam<BadBytes> {};
-
-TEST_P(BadMeshbFile, IsRefusedByByteAndReason) {
-    const std::string message =
-        test::thrown_by<InputError>([&] { (void)read_bytes(GetParam().bytes); });
-    EXPECT_THAT(message, HasSubstr("/m.meshb: at byte " + std::to_string(GetParam().at) + ": "));
-    EXPECT_THAT(message, HasSubstr(GetParam().what));
+/// A file whose fault is `back` bytes before its end.
+Row bad(const std::string& name, const MeshbFile& file, std::size_t back, const std::string& what) {
+    return {name, file.bytes(), test::at_byte(file.size() - back), what};
 }
 
-/// A file extended by `change`, whose fault is `back` bytes before its end.
-BadBytes case_of(const std::string& name, MeshbFile file, const auto& change, std::size_t back,
-                 const std::string& what) {
-    change(file);
-    return {name, file.bytes(), file.size() - back, what};
-}
-
-std::vector<BadBytes> bad_bytes() {
+std::vector<Row> bad_bytes() {
     const auto bytes_of = [](auto number, auto... numbers) {
         MeshbFile file;
         file.put(number);
@@ -163,162 +143,89 @@ std::vector<BadBytes> bad_bytes() {
         return file.bytes().substr(8);
     };
     const MeshbFile cell = MeshbFile(corner()).cell();
-    std::vector<BadBytes> cases{
-        {"Empty", "", 0, "the file ends where the number 1 should be"},
-        {"Text", "MeshVersionFormatted 2\n", 0, "text file: name it .mesh"},
-        {"OfMfem", "MFEM mesh v1.0\n", 0, "this is a mesh of MFEM; of .meshb files"},
-        {"Begin", "Nothing of the kind\n", 0, "begins with the number 1"},
-        {"OnlyOne", bytes_of(std::int32_t{1}), 4, "ends where the format's version should be"},
-        {"VersionZero", bytes_of(std::int32_t{1}, std::int32_t{0}), 4, "versions 1 to 4, not 0"},
-        {"VersionFive", bytes_of(std::int32_t{1}, std::int32_t{5}), 4, "versions 1 to 4, not 5"},
-        {"OnlyHead", meshb_start().bytes(), 20, "no section Vertices"},
-        {"DimensionTwo", MeshbFile().dimension(2).bytes(), 16, "dimension 3 expected, 2 found"},
-        {"InKeyword", MeshbFile(cell).end().bytes().substr(0, cell.size() + 3), cell.size(),
-         "the file ends where a keyword should be"},
-    };
-    const auto add = [&](const std::string& name, const MeshbFile& file, const auto& change,
-                         std::size_t back, const std::string& what) {
-        cases.push_back(case_of(name, file, change, back, what));
-    };
-    using F = MeshbFile&;
-    // Positions relative to the end of the file: keyword, position and count have 4 bytes each.
-    add(
-        "Unknown", cell, [](F f) { f.section(0, 3); }, 12, "a keyword expected, 0 found");
-    add(
-        "Negative", cell, [](F f) { f.section(-8, 3); }, 12, "a keyword expected, -8 found");
-    add(
-        "FarCode", cell, [](F f) { f.section(70000, 3); }, 12, "a keyword expected, 70000");
-    add(
-        "BehindEnd", cell, [](F f) { f.end().put('x'); }, 1, "extra bytes after the keyword End");
-    add(
-        "KeywordBehindEnd", cell, [](F f) { f.end().set_next(8); }, 4, "after End is said to be");
-    add(
-        "SecondOrder", cell, [](F f) { f.section(30, 0); }, 12, "elements (TetrahedraP2)");
-    add(
-        "Hexahedra", cell, [](F f) { f.section(10, 1); }, 12, "and this one has Hexahedra");
-    add(
-        "ThirdOrder", cell, [](F f) { f.section(96, 1); }, 12, "has cells with keyword 96");
-    add(
-        "TwoSections", cell, [](F f) { f.corner(); }, 124, "vertices; the first is at byte 20");
-    add(
-        "CountHuge", meshb_start(), [](F f) { f.section(4, 2000000000); }, 4, "hold at most 0");
-    add(
-        "CountNegative", meshb_start(), [](F f) { f.section(4, -1); }, 4,
-        "should be from 0, not -1");
-    add(
-        "CountThatOverflows", meshb_start(4), [](F f) { f.section(4, (1LL << 60) + 1); }, 8,
-        "at most 0");
-    add(
-        "CountTooLarge", corner(),
-        [](F f) {
-            f.section(8, 2).row({1, 2, 3, 4, 5});
-        },
-        24, "2 tetrahedra announced, but the 20 bytes that follow hold at most 1");
-    add(
-        "CountTooSmall", corner(),
-        [](F f) {
-            f.section(8, 0).row({1, 2, 3, 4, 5});
-        },
-        24, "0 tetrahedra announced, which end at byte 156, but the next keyword is said to be at");
-    add(
-        "SkippedCountTooLarge", cell, [](F f) { f.section(13, 2).row({1}); }, 8, "hold at most 1");
-    add(
-        "ItselfNext", corner(), [](F f) { f.section(5, 0).set_next(f.keyword_at()); }, 8,
-        "the next keyword is said to be at byte 144, before this one's end");
-    add(
-        "Backwards", corner(), [](F f) { f.section(5, 0).set_next(20); }, 8, "before this one's");
-    add(
-        "BeforeTheFile", corner(), [](F f) { f.section(5, 0).set_next(~std::size_t{0}); }, 8,
-        "said to be at byte -1");
-    add(
-        "BehindTheFile", corner(), [](F f) { f.section(5, 0).set_next(157); }, 8,
-        "said to be at byte 157, but the file has 156");
-    add(
-        "FarBehindTheFile", meshb_start(3),
-        [](F f) { f.section(4, 0).set_next(std::size_t{1} << 62U); }, 12, "but the file has 40");
-    add(
-        "BetweenKeywords", corner(),
-        [](F f) {
-            f.put('x').section(8, 1).row({1, 2, 3, 4, 5});
-        },
-        0, "");
-    cases.back().at = 28;
-    cases.back().what = "which end at byte 144, but the next keyword is said to be at byte 145";
-    // Rows of vertices have 28 bytes, those of cells 20.
-    add(
-        "NaN", meshb_start(), [](F f) { f.section(4, 1).point(0, not_a_number, 0, 0); }, 28,
-        "vertex 1 of this section: y is not finite: nan");
-    add(
-        "Infinite", meshb_start(1), [](F f) { f.section(4, 1).point(HUGE_VAL, 0, 0, 0); }, 16,
-        "x is not finite: inf");
-    add(
-        "BeyondMidpoints", meshb_start(), [](F f) { f.section(4, 1).point(0, 0, -9e307, 0); }, 28,
-        "z is -9e+307: coordinates must be less than 2^1023");
-    add(
-        "FarReference", meshb_start(4), [](F f) { f.section(4, 1).point(0, 0, 0, 1LL << 31U); }, 32,
-        "the vertex's reference should be a whole number of 32 bits, not 2147483648");
-    add(
-        "FarRegion", corner(4),
-        [](F f) {
-            f.section(8, 1).row({1, 2, 3, 4, -(1LL << 31U) - 1});
-        },
-        40, "the reference should be a whole number of 32 bits, not -2147483649");
-    add(
-        "VertexZero", corner(),
-        [](F f) {
-            f.section(8, 1).row({1, 0, 3, 4, 5});
-        },
-        20, "cell 1 of this section: there is no vertex 0");
-    add(
-        "VertexNegative", corner(),
-        [](F f) {
-            f.section(8, 1).row({1, 2, 3, -4, 5});
-        },
-        20, "there is no vertex -4");
-    add(
-        "VertexTooLarge", corner(),
-        [](F f) {
-            f.section(8, 1).row({1, 2, 3, 5, 5});
-        },
-        20, "there is no vertex 5: the file has 4");
-    add(
-        "VertexFar", corner(4),
-        [](F f) {
-            f.section(8, 1).row({1, 2, 3, (1LL << 32U) + 1, 5});
-        },
-        40, "there is no vertex 4294967297");
-    add(
-        "VertexTwice", cell,
-        [](F f) {
-            f.section(6, 2).row({1, 2, 3, 0}).row({1, 3, 3, 0});
-        },
-        16, "triangle 2 of this section: the triangle has the same vertex twice");
-    add(
-        "Inverted", corner(),
-        [](F f) {
-            f.section(8, 1).row({2, 1, 3, 4, 5});
-        },
-        20, "inverted");
-    add(
-        "CellTwice", corner(),
-        [](F f) {
-            f.section(8, 2).row({1, 2, 3, 4, 5}).row({2, 3, 1, 4, 5});
-        },
-        20, "cell 2 has the vertices of cell 1");
-    add(
-        "StrayEdge", cell,
-        [](F f) {
-            f.section(5, 2).row({1, 2, 9}).row({2, 1, 8});
-        },
-        12, "edge 2 with marker 8 is listed already, with marker 9, as edge 1");
     MeshbFile many = corner();
     for (int k = 0; k < 1000; ++k) many.section(20, 0);
-    cases.push_back({"ManyKeywords", many.bytes(), 144 + 998 * 12, "more than 1000 keywords"});
-    return cases;
+    return {
+        {"Empty", "", test::at_byte(0), "the file ends where the number 1 should be"},
+        {"Text", "MeshVersionFormatted 2\n", test::at_byte(0), "text file: name it .mesh"},
+        {"OfMfem", "MFEM mesh v1.0\n", test::at_byte(0), "this is a mesh of MFEM; of .meshb files"},
+        {"Begin", "Nothing of the kind\n", test::at_byte(0), "begins with the number 1"},
+        {"OnlyOne", bytes_of(std::int32_t{1}), test::at_byte(4),
+         "ends where the format's version should be"},
+        {"VersionZero", bytes_of(std::int32_t{1}, std::int32_t{0}), test::at_byte(4),
+         "versions 1 to 4, not 0"},
+        {"VersionFive", bytes_of(std::int32_t{1}, std::int32_t{5}), test::at_byte(4),
+         "versions 1 to 4, not 5"},
+        {"OnlyHead", meshb_start().bytes(), test::at_byte(20), "no section Vertices"},
+        {"DimensionTwo", MeshbFile().dimension(2).bytes(), test::at_byte(16),
+         "dimension 3 expected, 2 found"},
+        {"InKeyword", MeshbFile(cell).end().bytes().substr(0, cell.size() + 3),
+         test::at_byte(cell.size()), "the file ends where a keyword should be"},
+        // Positions relative to the end of the file: keyword, position and count have 4 bytes each.
+        bad("Unknown", MeshbFile(cell).section(0, 3), 12, "a keyword expected, 0 found"),
+        bad("Negative", MeshbFile(cell).section(-8, 3), 12, "a keyword expected, -8 found"),
+        bad("FarCode", MeshbFile(cell).section(70000, 3), 12, "a keyword expected, 70000"),
+        bad("BehindEnd", MeshbFile(cell).end().put('x'), 1, "extra bytes after the keyword End"),
+        bad("KeywordBehindEnd", MeshbFile(cell).end().set_next(8), 4, "after End is said to be"),
+        bad("SecondOrder", MeshbFile(cell).section(30, 0), 12, "elements (TetrahedraP2)"),
+        bad("Hexahedra", MeshbFile(cell).section(10, 1), 12, "and this one has Hexahedra"),
+        bad("ThirdOrder", MeshbFile(cell).section(96, 1), 12, "has cells with keyword 96"),
+        bad("TwoSections", MeshbFile(cell).corner(), 124, "vertices; the first is at byte 20"),
+        bad("CountHuge", meshb_start().section(4, 2000000000), 4, "hold at most 0"),
+        bad("CountNegative", meshb_start().section(4, -1), 4, "should be from 0, not -1"),
+        bad("CountThatOverflows", meshb_start(4).section(4, (1LL << 60) + 1), 8, "at most 0"),
+        bad("CountTooLarge", corner().section(8, 2).row({1, 2, 3, 4, 5}), 24,
+            "2 tetrahedra announced, but the 20 bytes that follow hold at most 1"),
+        bad("CountTooSmall", corner().section(8, 0).row({1, 2, 3, 4, 5}), 24,
+            "0 tetrahedra announced, which end at byte 156, but the next keyword is said to be at"),
+        bad("SkippedCountTooLarge", MeshbFile(cell).section(13, 2).row({1}), 8, "hold at most 1"),
+        bad("ItselfNext", corner().section(5, 0).set_next(144), 8,
+            "the next keyword is said to be at byte 144, before this one's end"),
+        bad("Backwards", corner().section(5, 0).set_next(20), 8, "before this one's"),
+        bad("BeforeTheFile", corner().section(5, 0).set_next(~std::size_t{0}), 8,
+            "said to be at byte -1"),
+        bad("BehindTheFile", corner().section(5, 0).set_next(157), 8,
+            "said to be at byte 157, but the file has 156"),
+        bad("FarBehindTheFile", meshb_start(3).section(4, 0).set_next(std::size_t{1} << 62U), 12,
+            "but the file has 40"),
+        {"BetweenKeywords", corner().put('x').section(8, 1).row({1, 2, 3, 4, 5}).bytes(),
+         test::at_byte(28),
+         "which end at byte 144, but the next keyword is said to be at byte 145"},
+        // Rows of vertices have 28 bytes, those of cells 20.
+        bad("NaN", meshb_start().section(4, 1).point(0, not_a_number, 0, 0), 28,
+            "vertex 1 of this section: y is not finite: nan"),
+        bad("Infinite", meshb_start(1).section(4, 1).point(HUGE_VAL, 0, 0, 0), 16,
+            "x is not finite: inf"),
+        bad("BeyondMidpoints", meshb_start().section(4, 1).point(0, 0, -9e307, 0), 28,
+            "z is -9e+307: coordinates must be less than 2^1023"),
+        bad("FarReference", meshb_start(4).section(4, 1).point(0, 0, 0, 1LL << 31U), 32,
+            "the vertex's reference should be a whole number of 32 bits, not 2147483648"),
+        bad("FarRegion", corner(4).section(8, 1).row({1, 2, 3, 4, -(1LL << 31U) - 1}), 40,
+            "the reference should be a whole number of 32 bits, not -2147483649"),
+        bad("VertexZero", corner().section(8, 1).row({1, 0, 3, 4, 5}), 20,
+            "cell 1 of this section: there is no vertex 0"),
+        bad("VertexNegative", corner().section(8, 1).row({1, 2, 3, -4, 5}), 20,
+            "there is no vertex -4"),
+        bad("VertexTooLarge", corner().section(8, 1).row({1, 2, 3, 5, 5}), 20,
+            "there is no vertex 5: the file has 4"),
+        bad("VertexFar", corner(4).section(8, 1).row({1, 2, 3, (1LL << 32U) + 1, 5}), 40,
+            "there is no vertex 4294967297"),
+        bad("VertexTwice", MeshbFile(cell).section(6, 2).row({1, 2, 3, 0}).row({1, 3, 3, 0}), 16,
+            "triangle 2 of this section: the triangle has the same vertex twice"),
+        bad("Inverted", corner().section(8, 1).row({2, 1, 3, 4, 5}), 20, "inverted"),
+        bad("CellTwice", corner().section(8, 2).row({1, 2, 3, 4, 5}).row({2, 3, 1, 4, 5}), 20,
+            "cell 2 has the vertices of cell 1"),
+        bad("StrayEdge", MeshbFile(cell).section(5, 2).row({1, 2, 9}).row({2, 1, 8}), 12,
+            "edge 2 with marker 8 is listed already, with marker 9, as edge 1"),
+        {"ManyKeywords", many.bytes(), test::at_byte(144 + 998 * 12), "more than 1000 keywords"},
+    };
 }
 
-INSTANTIATE_TEST_SUITE_P(, BadMeshbFile, testing::ValuesIn(bad_bytes()),
-                         [](const auto& test_case) { return test_case.param.name; });
+INSTANTIATE_TEST_SUITE_P(Meshb, RefusedFiles,
+                         test::refusals(
+                             "m.meshb", +[](const std::string& bytes) { (void)read_bytes(bytes); },
+                             bad_bytes()),
+                         test::name_of_case);
 
 /// The first bad entry of several hundred thousand, far beyond the first buffer.
 TEST(MeshbReader, NamesTheByteOfAnEntryFarBehind) {

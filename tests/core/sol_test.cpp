@@ -1,4 +1,5 @@
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <random>
@@ -12,6 +13,7 @@
 #include <octetra/core/sol_fields.hpp>
 
 #include "core/meshb_files.hpp"
+#include "core/refused_files.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 #include "verify/thread_group.hpp"
@@ -21,6 +23,7 @@ namespace octetra {
 namespace {
 
 using test::MeshbFile;
+using test::RefusedFiles;
 using test::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -65,20 +68,6 @@ SolFields read_text(const std::string& sections, const EntityCounts& counts) {
     const auto file = folder.write("v.sol", head + sections);
     (void)is_read_together(file, counts);
     return read_sol(file, counts);
-}
-
-/// The message "LINE: ..." or "at byte N: ..." of serial reading; collective reading leaves
-/// refusals to it.
-std::string refusal_of(const std::string& name, const std::string& bytes,
-                       const EntityCounts& counts) {
-    const TemporaryFolder folder;
-    const auto file = folder.write(name, bytes);
-    const std::string what = test::thrown_by<InputError>([&] { (void)read_sol(file, counts); });
-    test::run_together(
-        3, [&](const ProcessGroup& group) { EXPECT_FALSE(read_sol_share(file, counts, group)); });
-    const auto behind = what.find(name + ":");
-    if (behind == std::string::npos) return what;
-    return what.substr(behind + name.size() + 1);
 }
 
 TEST(SolReader, TakesScalarsVectorsAndTensorsOfVerticesAndCells) {
@@ -140,43 +129,64 @@ TEST(SolReader, NotesWhatIsDiscarded) {
     EXPECT_THAT(read.notes[3], HasSubstr("the file ends without the keyword End"));
 }
 
-TEST(SolReader, NamesTheLineOfTheFirstFault) {
-    const auto refused = [](const std::string& sections, const EntityCounts& counts = {2, 1}) {
-        return refusal_of("v.sol", head + sections, counts);
-    };
-    EXPECT_THAT(refused("SolAtVertices\n3\n1 1\n1\n2\n3\nEnd\n"),
-                testing::StartsWith("4: 3 vertices announced, and the mesh has 2"));
-    EXPECT_THAT(refused("SolAtTetrahedra\n18446744073709551615\n1 1\n1\nEnd\n"),
-                testing::StartsWith("4: 18446744073709551615 tetrahedra announced"));
-    EXPECT_THAT(refused("SolAtVertices\n2\n0\nEnd\n"),
-                testing::StartsWith("5: the number of fields should be from 1 to 1000, not 0"));
-    EXPECT_THAT(refused("SolAtVertices\n2\n99999999999999 1\n"),
-                testing::StartsWith("5: the number of fields should be from 1 to 1000"));
-    EXPECT_THAT(refused("SolAtVertices\n2\n2 1\n5\n1 1\n"),
-                testing::StartsWith("6: the type of a field should be 1 (scalar)"));
-    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\nnan\nEnd\n"),
-                testing::StartsWith("7: a value is not finite: 'nan'"));
-    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\n-9e307\nEnd\n"),
-                testing::StartsWith("7: a value is -9e+307: values must be less than 2^1023"));
-    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\nx\nEnd\n"),
-                testing::StartsWith("7: a value should be a number, not 'x'"));
-    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\n"),
-                testing::StartsWith("6: the file ends where a value should be"));
-    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\n2\n3\nEnd\n"),
-                testing::StartsWith("8: a keyword expected, '3' found"));
-    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\n2\nSolAtVertices\n2\n1 1\n1\n2\nEnd\n"),
-                testing::StartsWith("8: a second section SolAtVertices"));
-    EXPECT_THAT(refused("SolAtVertices\n2\n1 2\n1 2 3\n4 5 6 7\nEnd\n"),
-                testing::StartsWith("7: a keyword expected, '7' found"));
-    EXPECT_THAT(refused("SolAtEdges\n4000000000\n1 1\n"),
-                testing::StartsWith("5: 4000000000 rows of values announced, but a file of"));
-    EXPECT_THAT(refused("End\n5\n"), testing::StartsWith("4: text after the keyword End"));
-    EXPECT_THAT(refused("Dimension 2\n"), testing::StartsWith("3: dimension 3 expected"));
-    EXPECT_THAT(refusal_of("v.sol", "MeshVersionFormatted 7\n", {}),
-                testing::StartsWith("1: the Medit format has versions 1 to 4"));
-    EXPECT_THAT(refusal_of("v.sol", "SolAtVertices\n", {}),
-                testing::StartsWith("1: a Medit file begins with MeshVersionFormatted"));
+/// A file, and the counts of the mesh that it is read for.
+struct SolContent {
+    SolContent(std::string file, const EntityCounts& of_mesh = {2, 1})  // NOLINT: rows state files
+        : bytes(std::move(file)), counts(of_mesh) {}
+    std::string bytes;
+    EntityCounts counts;
+};
+using SolRows = std::vector<test::Refusal<SolContent>>;
+
+/// Serial reading refuses the file `name`; collective reading leaves refusals to it.
+template <const char* name>
+void read_refused(const SolContent& content) {
+    const TemporaryFolder folder;
+    const auto file = folder.write(name, content.bytes);
+    test::run_together(3, [&](const ProcessGroup& group) {
+        EXPECT_FALSE(read_sol_share(file, content.counts, group));
+    });
+    (void)read_sol(file, content.counts);
 }
+constexpr char as_text[] = "v.sol";
+constexpr char as_bytes[] = "v.solb";
+
+const SolRows bad_sols{
+    {"MoreVertices", head + "SolAtVertices\n3\n1 1\n1\n2\n3\nEnd\n", 4,
+     "3 vertices announced, and the mesh has 2"},
+    {"HugeCount", head + "SolAtTetrahedra\n18446744073709551615\n1 1\n1\nEnd\n", 4,
+     "18446744073709551615 tetrahedra announced"},
+    {"NoField", head + "SolAtVertices\n2\n0\nEnd\n", 5,
+     "the number of fields should be from 1 to 1000, not 0"},
+    {"HugeFieldCount", head + "SolAtVertices\n2\n99999999999999 1\n", 5,
+     "the number of fields should be from 1 to 1000"},
+    {"UnknownType", head + "SolAtVertices\n2\n2 1\n5\n1 1\n", 6,
+     "the type of a field should be 1 (scalar)"},
+    {"NaN", head + "SolAtVertices\n2\n1 1\n1\nnan\nEnd\n", 7, "a value is not finite: 'nan'"},
+    {"BeyondMidpoints", head + "SolAtVertices\n2\n1 1\n1\n-9e307\nEnd\n", 7,
+     "a value is -9e+307: values must be less than 2^1023"},
+    {"NotANumber", head + "SolAtVertices\n2\n1 1\n1\nx\nEnd\n", 7,
+     "a value should be a number, not 'x'"},
+    {"EndsEarly", head + "SolAtVertices\n2\n1 1\n1\n", 6, "the file ends where a value should be"},
+    {"ExtraValue", head + "SolAtVertices\n2\n1 1\n1\n2\n3\nEnd\n", 8,
+     "a keyword expected, '3' found"},
+    {"SecondSection", head + "SolAtVertices\n2\n1 1\n1\n2\nSolAtVertices\n2\n1 1\n1\n2\nEnd\n", 8,
+     "a second section SolAtVertices"},
+    {"ExtraValueOfAVector", head + "SolAtVertices\n2\n1 2\n1 2 3\n4 5 6 7\nEnd\n", 7,
+     "a keyword expected, '7' found"},
+    {"HugeSkippedSection", head + "SolAtEdges\n4000000000\n1 1\n", 5,
+     "4000000000 rows of values announced, but a file of"},
+    {"TextAfterEnd", head + "End\n5\n", 4, "text after the keyword End"},
+    {"Dimension", head + "Dimension 2\n", 3, "dimension 3 expected"},
+    {"VersionSeven", std::string("MeshVersionFormatted 7\n"), 1,
+     "the Medit format has versions 1 to 4"},
+    {"NoVersion", std::string("SolAtVertices\n"), 1,
+     "a Medit file begins with MeshVersionFormatted"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Sol, RefusedFiles,
+                         test::refusals(as_text, read_refused<as_text>, bad_sols),
+                         test::name_of_case);
 
 /// Two vertices with a scalar and a vector, a cell with a scalar.
 MeshbFile two_sections(int version, bool swapped) {
@@ -206,48 +216,56 @@ TEST(SolbReader, TakesEveryVersionInEitherByteOrder) {
     }
 }
 
-TEST(SolbReader, NamesTheByteOfTheFirstFault) {
-    const auto refused = [](MeshbFile& file, const EntityCounts& counts = {2, 1}) {
-        return refusal_of("v.solb", file.bytes(), counts);
-    };
-    const auto start = [] { return std::move(MeshbFile(2).dimension()); };  // 20 bytes
-    MeshbFile file = two_sections(2, false).end();
-    EXPECT_THAT(refused(file, {3, 1}), HasSubstr("at byte 28: 2 vertices announced, and the mesh"));
-    EXPECT_THAT(refused(file, {2, 5}), HasSubstr("tetrahedra announced, and the mesh has 5"));
-    file = start();
-    file.section(62, 2).put<std::int32_t>(1001).end();
-    EXPECT_THAT(refused(file), HasSubstr("at byte 32: the number of fields should be from 1 to"));
-    file = start();
-    file.section(62, 2).put<std::int32_t>(-1).end();
-    EXPECT_THAT(refused(file), HasSubstr("at byte 32: the number of fields should be from 1 to"));
-    file = start();
-    file.section(62, 2).put<std::int32_t>(2).put<std::int32_t>(1).put<std::int32_t>(0).end();
-    EXPECT_THAT(refused(file), HasSubstr("at byte 40: the type of a field should be 1 (scalar)"));
-    file = start();
-    file.section(62, 1 << 30).put<std::int32_t>(1).put<std::int32_t>(1).real(1).end();
-    EXPECT_THAT(refused(file, {1 << 30, 1}),
-                HasSubstr("at byte 28: 1073741824 rows of values announced, but the 16 bytes"));
-    file = start();
-    file.section(62, 2).put<std::int32_t>(1).put<std::int32_t>(1).real(1).real(2).real(3).end();
-    EXPECT_THAT(refused(file), HasSubstr("at byte 28: 2 rows of values announced, which end at"));
-    file = start();
-    file.section(62, 2).put<std::int32_t>(1).put<std::int32_t>(1).real(1);
-    file.real(std::numeric_limits<double>::quiet_NaN()).end();
-    EXPECT_THAT(refused(file), HasSubstr("at byte 48: a value is not finite: nan"));
-    file = start();
-    file.section(62, 2).put<std::int32_t>(1).put<std::int32_t>(1).real(-1e308).real(1).end();
-    EXPECT_THAT(refused(file), HasSubstr("at byte 40: a value is -1e+308: values must be less"));
-    file = two_sections(2, false);
-    file.section(62, 2).put<std::int32_t>(1).put<std::int32_t>(1).real(1).real(2).end();
-    EXPECT_THAT(refused(file), HasSubstr("a second section SolAtVertices"));
-    file = start();
-    file.keyword(-7).end();
-    EXPECT_THAT(refused(file), HasSubstr("at byte 20: a keyword expected, -7 found"));
-    file = MeshbFile(2);
-    file.dimension(2);
-    EXPECT_THAT(refused(file), HasSubstr("at byte 16: dimension 3 expected, 2 found"));
-    EXPECT_THAT(refusal_of("v.solb", "garbage!", {}), HasSubstr("at byte 0: a binary Medit file"));
+/// A section of values at the vertices, after 20 bytes: `numbers` are the integers behind `count`.
+MeshbFile of_vertices(std::int64_t count, std::initializer_list<std::int32_t> numbers) {
+    MeshbFile file = std::move(MeshbFile(2).dimension());
+    file.section(62, count);
+    for (const std::int32_t number : numbers) file.put(number);
+    return file;
 }
+
+test::Refusal<SolContent> bad_solb(const std::string& name, const MeshbFile& file,
+                                   const test::Place& place, const std::string& what,
+                                   const EntityCounts& counts = {2, 1}) {
+    return {name, SolContent(file.bytes(), counts), place, what};
+}
+
+SolRows bad_solbs() {
+    using test::at_byte;
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const MeshbFile good = two_sections(2, false).end();
+    MeshbFile twice = two_sections(2, false);
+    twice.section(62, 2).put<std::int32_t>(1).put<std::int32_t>(1).real(1).real(2).end();
+    return {
+        bad_solb("FewerVertices", good, at_byte(28), "2 vertices announced, and the mesh", {3, 1}),
+        bad_solb("FewerCells", good, ": at byte ", "tetrahedra announced, and the mesh has 5",
+                 {2, 5}),
+        bad_solb("HugeFieldCount", of_vertices(2, {1001}).end(), at_byte(32),
+                 "the number of fields should be from 1 to"),
+        bad_solb("NegativeFieldCount", of_vertices(2, {-1}).end(), at_byte(32),
+                 "the number of fields should be from 1 to"),
+        bad_solb("UnknownType", of_vertices(2, {2, 1, 0}).end(), at_byte(40),
+                 "the type of a field should be 1 (scalar)"),
+        bad_solb("HugeCount", of_vertices(1 << 30, {1, 1}).real(1).end(), at_byte(28),
+                 "1073741824 rows of values announced, but the 16 bytes", {1 << 30, 1}),
+        bad_solb("CountTooSmall", of_vertices(2, {1, 1}).real(1).real(2).real(3).end(), at_byte(28),
+                 "2 rows of values announced, which end at"),
+        bad_solb("NaN", of_vertices(2, {1, 1}).real(1).real(nan).end(), at_byte(48),
+                 "a value is not finite: nan"),
+        bad_solb("BeyondMidpoints", of_vertices(2, {1, 1}).real(-1e308).real(1).end(), at_byte(40),
+                 "a value is -1e+308: values must be less"),
+        bad_solb("SecondSection", twice, ": at byte ", "a second section SolAtVertices"),
+        bad_solb("UnknownKeyword", MeshbFile(2).dimension().keyword(-7).end(), at_byte(20),
+                 "a keyword expected, -7 found"),
+        bad_solb("Dimension", MeshbFile(2).dimension(2), at_byte(16),
+                 "dimension 3 expected, 2 found"),
+        {"Garbage", std::string("garbage!"), at_byte(0), "a binary Medit file"},
+    };
+}
+
+INSTANTIATE_TEST_SUITE_P(Solb, RefusedFiles,
+                         test::refusals(as_bytes, read_refused<as_bytes>, bad_solbs()),
+                         test::name_of_case);
 
 /// A file with one byte changed, or truncated anywhere, is read or refused.
 TEST(SolbReader, ReadsOrRefusesFilesWithAnyByteChanged) {

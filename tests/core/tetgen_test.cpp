@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,12 +17,14 @@
 #include <octetra/core/files/mesh_files.hpp>
 
 #include "core/mesh_shares.hpp"
+#include "core/refused_files.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
 namespace octetra {
 namespace {
 
+using test::RefusedFiles;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
@@ -47,23 +48,7 @@ Mesh read_files(const Files& files, const ReadOptions& options = {}) {
     return read_mesh(folder / "m.ele", options);
 }
 
-struct BadFiles {
-    std::string name;
-    Files files;
-    std::string place;  ///< file name and line
-    std::string what;
-};
-
-void PrintTo(const BadFiles& test_case, std::ostream* out) { *out << test_case.name; }
-
-class BadTetgenFile : public testing::TestWithParam<BadFiles> {};
-
-TEST_P(BadTetgenFile, IsRefusedByFileLineAndReason) {
-    const std::string message =
-        test::thrown_by<InputError>([&] { (void)read_files(GetParam().files); });
-    EXPECT_THAT(message, HasSubstr("/" + GetParam().place + ": "));
-    EXPECT_THAT(message, HasSubstr(GetParam().what));
-}
+test::Place in(const std::string& file, int line) { return fmt::format("{}:{}: ", file, line); }
 
 std::string with_line(std::string text, int line, const std::string& replacement) {
     std::size_t begin = 0;
@@ -74,108 +59,96 @@ std::string with_line(std::string text, int line, const std::string& replacement
 Files node_line(int line, const std::string& text) {
     return {.node = with_line(good_node, line, text)};
 }
+Files node_file(const std::string& text) { return {.node = text}; }
+Files ele_file(const std::string& text) { return {.ele = text}; }
+Files face_file(const std::string& text) { return {.face = text}; }
+Files edge_file(const std::string& text) { return {.edge = text}; }
+/// Adds a vertex of no cell.
+Files with_stray_vertex(Files files) {
+    files.node = with_line(good_node, 1, "5 3") + "4 5 5 5\n";
+    return files;
+}
 Files ele_line(int line, const std::string& text) {
     return {.ele = with_line(good_ele, line, text)};
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , BadTetgenFile,
-    testing::ValuesIn(std::vector<BadFiles>{
-        {"EmptyNode", {.node = "", .ele = good_ele}, "m.node:1", "the file is empty"},
-        {"OnlyComments", {.node = "# nothing\n\n"}, "m.node:2", "ends before its header"},
-        {"Garbage",
-         {.node = std::string("\x7f"
-                              "ELF\x02\x00\x01\xff",
-                              8)},
-         "m.node:1",
-         "should be a whole number from 0, not '\\x7fELF"},
-        {"GarbageWithoutLineEnds",
-         {.node = std::string(3U << 20U, '\xfe')},
-         "m.node:1",
-         "longer than 1 MiB"},
-        {"MissingCoordinate", node_line(3, "1 1 0"), "m.node:3", "z is missing"},
-        {"ExtraField", node_line(3, "1 1 0 0 9 8"), "m.node:3",
-         "4 fields expected, 6 found; the first extra one is '9'"},
-        {"NotANumber", node_line(4, "2 0 one 0"), "m.node:4", "y should be a number, not 'one'"},
-        {"HalfANumber", node_line(4, "2 0 1x 0"), "m.node:4", "not '1x'"},
-        {"TwoSigns", node_line(4, "2 0 +-1 0"), "m.node:4", "y should be a number, not '+-1'"},
-        {"NaN", node_line(4, "2 0 nan 0"), "m.node:4", "y is not finite: 'nan'"},
-        {"Infinity", node_line(4, "2 -inf 0 0"), "m.node:4", "x is not finite: '-inf'"},
-        {"BeyondDoubles", node_line(4, "2 0 1e999 0"), "m.node:4", "y is out of range: '1e999'"},
-        {"BeyondMidpoints", node_line(4, "2 9e307 1 0"), "m.node:4",
-         "x is '9e307': coordinates must be"},
-        {"Numbering", node_line(4, "7 0 1 0"), "m.node:4", "entry number 2 expected, 7 found"},
-        {"FirstNumber", {.node = "1 3 0 0\n5 0 0 0\n"}, "m.node:2", "begins with 0 or 1"},
-        {"CountTooLarge", node_line(1, "5 3 0 0"), "m.node:5", "ends after 4 of 5 entries"},
-        {"CountTooSmall", node_line(1, "3 3 0 0"), "m.node:5", "more lines than the 3"},
-        {"CountHuge", node_line(1, "99999999999 3 0 0"), "m.node:1", "holds at most"},
-        {"CountNegative", node_line(1, "-4 3 0 0"), "m.node:1", "should be a whole number from 0"},
-        {"CountBeyond64Bits", node_line(1, "99999999999999999999999 3 0 0"), "m.node:1",
-         "out of range"},
-        {"AttributesHuge", node_line(1, "4 3 18446744073709551615 0"), "m.node:1",
-         "attributes per vertex"},
-        {"Dimension", node_line(1, "4 2 0 0"), "m.node:1", "dimension 3 expected, 2 found"},
-        {"HeaderTooLong", node_line(1, "4 3 0 0 0"), "m.node:1", "4 fields expected, 5 found"},
-        {"MarkersFlag", node_line(1, "4 3 0 2"), "m.node:1", "0 or 1, not 2"},
-        {"EmptyEle", {.node = good_node, .ele = ""}, "m.ele:1", "the file is empty"},
-        {"SecondOrder", ele_line(1, "1 10 0"), "m.ele:1", "second-order"},
-        {"FiveCorners", ele_line(1, "1 5 0"), "m.ele:1", "4 vertices per cell expected, 5 found"},
-        {"TwoAttributes", ele_line(1, "1 4 2"), "m.ele:1", "only one, the region tag"},
-        {"FractionalRegion",
-         {.node = good_node, .ele = "1 4 1\n0 0 1 2 3 1.5\n"},
-         "m.ele:2",
-         "the region tag should be a whole number"},
-        {"HugeRegion",
-         {.node = good_node, .ele = "1 4 1\n0 0 1 2 3 3e9\n"},
-         "m.ele:2",
-         "whole number of 32 bits"},
-        {"HugeNegativeRegion",
-         {.node = good_node, .ele = "1 4 1\n0 0 1 2 3 -2147483649\n"},
-         "m.ele:2",
-         "whole number of 32 bits"},
-        {"CornerMissing", ele_line(2, "0 0 1 2"), "m.ele:2", "a vertex number is missing"},
-        {"CornerOutOfRange", ele_line(2, "0 0 1 2 4"), "m.ele:2", "there is no vertex 4"},
-        {"CornerNegative", ele_line(2, "0 0 1 2 -1"), "m.ele:2", "should be a whole number"},
-        {"CornerBeyond32Bits", ele_line(2, "0 0 1 2 4294967299"), "m.ele:2",
-         "there is no vertex 4294967299"},
-        {"CornerTwice", ele_line(2, "0 0 1 1 3"), "m.ele:2", "same vertex twice"},
-        {"Inverted", ele_line(2, "0 1 0 2 3"), "m.ele:2", "inverted"},
-        {"Flat", {.node = with_line(good_node, 5, "3 1 1 0")}, "m.ele:2", "flat"},
-        {"CellCountHuge", ele_line(1, "99999999999 4 0"), "m.ele:1", "cells announced"},
-        {"FaceCountHuge", {.face = "99999999999 0\n0 0 1 2\n"}, "m.face:1", "holds at most"},
-        {"EdgeCountHuge", {.edge = "99999999999 0\n0 0 1\n"}, "m.edge:1", "holds at most"},
-        {"OtherFirstNumber", ele_line(2, "1 0 1 2 3"), "m.ele:2", "entry number 0 expected"},
-        {"StrayFace",
-         {.node = "5 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 5 5 5\n",
-          .ele = good_ele,
-          .face = "2 1\n0 0 1 2 7\n# the next one is stray\n1 0 1 4 7\n"},
-         "m.face:4",
-         "face 1 belongs to no cell"},
-        {"StrayFaceOnItsLine",
-         {.node = "5 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 5 5 5\n",
-          .ele = good_ele,
-          .face = "2 1\n0 0 1 2 7\n1 0 1 4 7\n"},
-         "m.face:3",
-         "face 1 belongs to no cell"},
-        {"FaceTwice", {.face = "1 0\n0 0 1 0\n"}, "m.face:2", "same vertex twice"},
-        {"FaceExtraField", {.face = "1 0\n0 0 1 2 -1\n"}, "m.face:2", "4 fields expected, 5 found"},
-        {"StrayEdge",
-         {.node = "5 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 5 5 5\n",
-          .ele = good_ele,
-          .edge = "1 0\n0 0 4\n"},
-         "m.edge:2",
-         "edge 0 belongs to no cell"},
-        {"EdgeMarkerMissing", {.edge = "1 1\n0 0 1\n"}, "m.edge:2", "the marker is missing"},
-        {"CutOffBeforeANumber",
-         {.ele = "1 4 0\n0 0 1 2"},
-         "m.ele:2",
-         "is missing; the file ends with this line, without a line end: was it cut off?"},
-        {"CutOffInANumber",
-         {.ele = "1 4 0\n0 0 2 1 3"},
-         "m.ele:2",
-         "--fix-orientation; the file ends with this line, without a line end: was it cut off?"},
-    }),
-    [](const auto& test_case) { return test_case.param.name; });
+void read_refused_files(const Files& files) { (void)read_files(files); }
+
+const std::vector<test::Refusal<Files>> bad_files{
+    {"EmptyNode", node_file(""), in("m.node", 1), "the file is empty"},
+    {"OnlyComments", node_file("# nothing\n\n"), in("m.node", 2), "ends before its header"},
+    {"Garbage",
+     node_file(std::string("\x7f"
+                           "ELF\x02\x00\x01\xff",
+                           8)),
+     in("m.node", 1), "should be a whole number from 0, not '\\x7fELF"},
+    {"GarbageWithoutLineEnds", node_file(std::string(3U << 20U, '\xfe')), in("m.node", 1),
+     "longer than 1 MiB"},
+    {"MissingCoordinate", node_line(3, "1 1 0"), in("m.node", 3), "z is missing"},
+    {"ExtraField", node_line(3, "1 1 0 0 9 8"), in("m.node", 3),
+     "4 fields expected, 6 found; the first extra one is '9'"},
+    {"NotANumber", node_line(4, "2 0 one 0"), in("m.node", 4), "y should be a number, not 'one'"},
+    {"HalfANumber", node_line(4, "2 0 1x 0"), in("m.node", 4), "not '1x'"},
+    {"TwoSigns", node_line(4, "2 0 +-1 0"), in("m.node", 4), "y should be a number, not '+-1'"},
+    {"NaN", node_line(4, "2 0 nan 0"), in("m.node", 4), "y is not finite: 'nan'"},
+    {"Infinity", node_line(4, "2 -inf 0 0"), in("m.node", 4), "x is not finite: '-inf'"},
+    {"BeyondDoubles", node_line(4, "2 0 1e999 0"), in("m.node", 4), "y is out of range: '1e999'"},
+    {"BeyondMidpoints", node_line(4, "2 9e307 1 0"), in("m.node", 4),
+     "x is '9e307': coordinates must be"},
+    {"Numbering", node_line(4, "7 0 1 0"), in("m.node", 4), "entry number 2 expected, 7 found"},
+    {"FirstNumber", node_file("1 3 0 0\n5 0 0 0\n"), in("m.node", 2), "begins with 0 or 1"},
+    {"CountTooLarge", node_line(1, "5 3 0 0"), in("m.node", 5), "ends after 4 of 5 entries"},
+    {"CountTooSmall", node_line(1, "3 3 0 0"), in("m.node", 5), "more lines than the 3"},
+    {"CountHuge", node_line(1, "99999999999 3 0 0"), in("m.node", 1), "holds at most"},
+    {"CountNegative", node_line(1, "-4 3 0 0"), in("m.node", 1), "should be a whole number from 0"},
+    {"CountBeyond64Bits", node_line(1, "99999999999999999999999 3 0 0"), in("m.node", 1),
+     "out of range"},
+    {"AttributesHuge", node_line(1, "4 3 18446744073709551615 0"), in("m.node", 1),
+     "attributes per vertex"},
+    {"Dimension", node_line(1, "4 2 0 0"), in("m.node", 1), "dimension 3 expected, 2 found"},
+    {"HeaderTooLong", node_line(1, "4 3 0 0 0"), in("m.node", 1), "4 fields expected, 5 found"},
+    {"MarkersFlag", node_line(1, "4 3 0 2"), in("m.node", 1), "0 or 1, not 2"},
+    {"EmptyEle", ele_file(""), in("m.ele", 1), "the file is empty"},
+    {"SecondOrder", ele_line(1, "1 10 0"), in("m.ele", 1), "second-order"},
+    {"FiveCorners", ele_line(1, "1 5 0"), in("m.ele", 1), "4 vertices per cell expected, 5 found"},
+    {"TwoAttributes", ele_line(1, "1 4 2"), in("m.ele", 1), "only one, the region tag"},
+    {"FractionalRegion", ele_file("1 4 1\n0 0 1 2 3 1.5\n"), in("m.ele", 2),
+     "the region tag should be a whole number"},
+    {"HugeRegion", ele_file("1 4 1\n0 0 1 2 3 3e9\n"), in("m.ele", 2), "whole number of 32 bits"},
+    {"HugeNegativeRegion", ele_file("1 4 1\n0 0 1 2 3 -2147483649\n"), in("m.ele", 2),
+     "whole number of 32 bits"},
+    {"CornerMissing", ele_line(2, "0 0 1 2"), in("m.ele", 2), "a vertex number is missing"},
+    {"CornerOutOfRange", ele_line(2, "0 0 1 2 4"), in("m.ele", 2), "there is no vertex 4"},
+    {"CornerNegative", ele_line(2, "0 0 1 2 -1"), in("m.ele", 2), "should be a whole number"},
+    {"CornerBeyond32Bits", ele_line(2, "0 0 1 2 4294967299"), in("m.ele", 2),
+     "there is no vertex 4294967299"},
+    {"CornerTwice", ele_line(2, "0 0 1 1 3"), in("m.ele", 2), "same vertex twice"},
+    {"Inverted", ele_line(2, "0 1 0 2 3"), in("m.ele", 2), "inverted"},
+    {"Flat", node_file(with_line(good_node, 5, "3 1 1 0")), in("m.ele", 2), "flat"},
+    {"CellCountHuge", ele_line(1, "99999999999 4 0"), in("m.ele", 1), "cells announced"},
+    {"FaceCountHuge", face_file("99999999999 0\n0 0 1 2\n"), in("m.face", 1), "holds at most"},
+    {"EdgeCountHuge", edge_file("99999999999 0\n0 0 1\n"), in("m.edge", 1), "holds at most"},
+    {"OtherFirstNumber", ele_line(2, "1 0 1 2 3"), in("m.ele", 2), "entry number 0 expected"},
+    {"StrayFace",
+     with_stray_vertex(face_file("2 1\n0 0 1 2 7\n# the next one is stray\n1 0 1 4 7\n")),
+     in("m.face", 4), "face 1 belongs to no cell"},
+    {"StrayFaceOnItsLine", with_stray_vertex(face_file("2 1\n0 0 1 2 7\n1 0 1 4 7\n")),
+     in("m.face", 3), "face 1 belongs to no cell"},
+    {"FaceTwice", face_file("1 0\n0 0 1 0\n"), in("m.face", 2), "same vertex twice"},
+    {"FaceExtraField", face_file("1 0\n0 0 1 2 -1\n"), in("m.face", 2),
+     "4 fields expected, 5 found"},
+    {"StrayEdge", with_stray_vertex(edge_file("1 0\n0 0 4\n")), in("m.edge", 2),
+     "edge 0 belongs to no cell"},
+    {"EdgeMarkerMissing", edge_file("1 1\n0 0 1\n"), in("m.edge", 2), "the marker is missing"},
+    {"CutOffBeforeANumber", ele_file("1 4 0\n0 0 1 2"), in("m.ele", 2),
+     "is missing; the file ends with this line, without a line end: was it cut off?"},
+    {"CutOffInANumber", ele_file("1 4 0\n0 0 2 1 3"), in("m.ele", 2),
+     "--fix-orientation; the file ends with this line, without a line end: was it cut "
+     "off?"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Tetgen, RefusedFiles, test::refusals("", read_refused_files, bad_files),
+                         test::name_of_case);
 
 TEST(TetgenReader, AsksWhetherAFileWasCutOffOnlyWhereItsLastLineHasNoEnd) {
     const std::string message =

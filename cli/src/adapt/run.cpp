@@ -1,6 +1,7 @@
 #include "adapt/run.hpp"
 
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 

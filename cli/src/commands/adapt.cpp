@@ -44,11 +44,7 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
     add_number(*command, "--max-cells", options->adaptation.max_cells, whole_numbers_from(1),
                "fail before a step that would exceed N cells")
         ->type_name("N");
-    const std::string group = "Execution (does not change the result)";
-    add_engine_option(*command, options->engine, group);
-    add_partition_option(*command, options->adaptation.parallel, group);
-    add_synchronisation_option(*command, options->adaptation.parallel, group);
-    add_rebalance_option(*command, options->adaptation.parallel, group);
+    add_engine_options(*command, options->engine, options->adaptation.parallel);
     add_profile_options(*command, options->adaptation.profile);
     command->add_flag(
         "--verify", options->adaptation.verify,

@@ -52,8 +52,7 @@ void add_coarsen(CLI::App& program, const distributed::Communicator& world) {
     add_output_option(*command, options->adaptation.output);
     add_coarsening_options(*command, options->coarsening,
                            "Cells to coarsen (criteria are combined; at least one is required)");
-    add_partition_option(*command, options->adaptation.parallel,
-                         "Execution (does not change the result)");
+    add_partition_option(*command, options->adaptation.parallel);
     add_profile_options(*command, options->adaptation.profile);
     command->add_flag(
         "--verify", options->adaptation.verify,

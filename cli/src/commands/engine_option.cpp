@@ -10,12 +10,13 @@
 
 namespace octetra::cli {
 
-void add_engine_option(CLI::App& subcommand, std::string& engine, const std::string& group) {
+void add_engine_options(CLI::App& subcommand, std::string& engine, ParallelOptions& parallel) {
     subcommand
         .add_option("--engine", engine,
                     "the default, parallel under mpirun, or the serial reference [distributed]")
         ->type_name("distributed|reference")
-        ->group(group);
+        ->group(execution_group);
+    add_parallel_options(subcommand, parallel);
 }
 
 Engine parse_engine(const std::string& text, const ParallelOptions& parallel) {

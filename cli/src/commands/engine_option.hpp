@@ -12,8 +12,8 @@ namespace octetra::cli {
 
 enum class Engine { distributed, reference };
 
-/// Declares --engine under the heading `group` of the help.
-void add_engine_option(CLI::App& subcommand, std::string& engine, const std::string& group);
+/// Declares --engine and the options for parallel execution.
+void add_engine_options(CLI::App& subcommand, std::string& engine, ParallelOptions& parallel);
 
 /// Throws InputError for an unknown word, or if options for parallel execution are given with the
 /// reference.

@@ -12,33 +12,28 @@
 
 namespace octetra::cli {
 
-void add_partition_option(CLI::App& subcommand, ParallelOptions& options,
-                          const std::string& group) {
+void add_partition_option(CLI::App& subcommand, ParallelOptions& options) {
     subcommand
         .add_option(
             "--partition", options.partition,
             "assignment of cells to ranks: rcb, lepp, dual, block, random:SEED, file:PATH [rcb]")
         ->type_name("METHOD")
-        ->group(group);
+        ->group(execution_group);
 }
 
-void add_synchronisation_option(CLI::App& subcommand, ParallelOptions& options,
-                                const std::string& group) {
+void add_parallel_options(CLI::App& subcommand, ParallelOptions& options) {
+    add_partition_option(subcommand, options);
     subcommand
         .add_option("--sync", options.synchronisation,
                     "exchange of marks between neighbours, or through the first rank [neighbour]")
         ->type_name("neighbour|gateway")
-        ->group(group);
-}
-
-void add_rebalance_option(CLI::App& subcommand, ParallelOptions& options,
-                          const std::string& group) {
+        ->group(execution_group);
     subcommand
         .add_option(
             "--rebalance", options.rebalance,
             "when cells move: auto, never, or if a rank exceeds the mean by FRACTION [auto]")
         ->type_name("auto|never|FRACTION")
-        ->group(group);
+        ->group(execution_group);
 }
 
 distributed::Partition partition_named(const std::string& word) {

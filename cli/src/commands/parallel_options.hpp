@@ -19,11 +19,13 @@ struct ParallelOptions {
     std::optional<std::string> rebalance;
 };
 
-/// Declare --partition, --sync and --rebalance under the heading `group` of the help.
-void add_partition_option(CLI::App& subcommand, ParallelOptions& options, const std::string& group);
-void add_synchronisation_option(CLI::App& subcommand, ParallelOptions& options,
-                                const std::string& group);
-void add_rebalance_option(CLI::App& subcommand, ParallelOptions& options, const std::string& group);
+/// The heading of these options in the help.
+inline constexpr const char* execution_group = "Execution (does not change the result)";
+
+/// Declares --partition.
+void add_partition_option(CLI::App& subcommand, ParallelOptions& options);
+/// Declares --partition, --sync and --rebalance.
+void add_parallel_options(CLI::App& subcommand, ParallelOptions& options);
 
 /// Returns the meaning of a word of --partition. Throws InputError.
 [[nodiscard]] distributed::Partition partition_named(const std::string& word);

@@ -285,14 +285,6 @@ void refine(const RefineOptions& given, const distributed::Communicator& all) {
     if (!done) throw NegativeAnswer{};
 }
 
-void add_engine_options(CLI::App& command, RefineOptions& options) {
-    const std::string group = "Execution (does not change the result)";
-    add_engine_option(command, options.engine, group);
-    add_partition_option(command, options.adaptation.parallel, group);
-    add_synchronisation_option(command, options.adaptation.parallel, group);
-    add_rebalance_option(command, options.adaptation.parallel, group);
-}
-
 }  // namespace
 
 void add_refine(CLI::App& program, const distributed::Communicator& world) {
@@ -310,7 +302,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
     add_number(*refine_command, "--max-cells", options->adaptation.max_cells, whole_numbers_from(1),
                "fail, without writing, before a level that would exceed N cells")
         ->type_name("N");
-    add_engine_options(*refine_command, *options);
+    add_engine_options(*refine_command, options->engine, options->adaptation.parallel);
     refine_command
         ->add_option("--maps", options->adaptation.maps,
                      "also write the parent of each cell and the edge of each midpoint, as text")

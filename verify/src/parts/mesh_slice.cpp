@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/window_pieces.hpp>
 
 #include "parts/exchange.hpp"
 
@@ -37,19 +38,6 @@ void check_countable(const MeshFacts& facts) {
         fmt::format("the mesh is too large to be verified: {} entities of a kind; at most {} are "
                     "supported",
                     most, VertexIndex::limit));
-}
-
-/// Calls take(window) for windows that together cover all slices of a larger one, few entities at a
-/// time, so that the buffers of a MeshSource remain small.
-void for_each_piece(const Window& slices, auto&& take) {
-    constexpr std::uint64_t length = std::uint64_t{1} << 16U;
-    Window piece = slices;
-    piece.distance = slices.slice_length;
-    for (std::uint64_t done = 0; done < slices.slice_length; done += length) {
-        piece.begin = slices.begin + done;
-        piece.slice_length = std::min(length, slices.slice_length - done);
-        take(static_cast<const Window&>(piece));
-    }
 }
 
 }  // namespace
@@ -99,10 +87,11 @@ MeshSlice slice_of(MeshSource& mesh) {
     const auto take_numbers = [](auto& list, auto span) {
         for (const auto& numbers : span) list.push_back(indices_of(numbers));
     };
+    constexpr std::uint64_t at_once = std::uint64_t{1} << 16U;
     const int rank = mesh.group().rank();
     const Window vertices = slices_of(facts.vertices, size);
     lists.points.reserve(vertices.length_of(rank));
-    for_each_piece(vertices, [&](const Window& piece) {
+    for_each_piece(vertices, at_once, [&](const Window& piece) {
         take(lists.points, mesh.points(piece));
         if (facts.has_point_markers) take(lists.point_markers, mesh.point_markers(piece));
         if (facts.attributes_per_point > 0) {
@@ -111,15 +100,15 @@ MeshSlice slice_of(MeshSource& mesh) {
     });
     const Window cells = slices_of(facts.cells, size);
     lists.cells.reserve(cells.length_of(rank));
-    for_each_piece(cells, [&](const Window& piece) {
+    for_each_piece(cells, at_once, [&](const Window& piece) {
         take_numbers(lists.cells, mesh.cells(piece));
         if (facts.has_regions) take(lists.regions, mesh.regions(piece));
     });
-    for_each_piece(slices_of(facts.facets, size), [&](const Window& piece) {
+    for_each_piece(slices_of(facts.facets, size), at_once, [&](const Window& piece) {
         take_numbers(lists.facets, mesh.facets(piece));
         if (facts.has_facet_markers) take(lists.facet_markers, mesh.facet_markers(piece));
     });
-    for_each_piece(slices_of(facts.edges, size), [&](const Window& piece) {
+    for_each_piece(slices_of(facts.edges, size), at_once, [&](const Window& piece) {
         take_numbers(lists.edges, mesh.edges(piece));
         if (facts.has_edge_markers) take(lists.edge_markers, mesh.edge_markers(piece));
     });

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include <octetra/core/mesh_source.hpp>
+#include <octetra/core/window_pieces.hpp>
 
 #include "files/output/number_text.hpp"
 #include "files/output/output_file.hpp"
@@ -32,18 +33,6 @@ void put_list(OutputFile& out, std::uint64_t count, const ProcessGroup& group, a
 [[nodiscard]] inline Window share_window(std::uint64_t count, const ProcessGroup& group) {
     const auto processes = static_cast<std::uint64_t>(group.size());
     return {0, (count + processes - 1) / processes, count};
-}
-
-/// Calls take(window) for windows that together cover all slices of a larger one, `length` entities
-/// of each slice at a time.
-void for_each_piece(const Window& slices, std::uint64_t length, auto&& take) {
-    Window piece = slices;
-    if (piece.distance == 0) piece.distance = slices.slice_length;
-    for (std::uint64_t done = 0; done < slices.slice_length; done += length) {
-        piece.begin = slices.begin + done;
-        piece.slice_length = std::min(length, slices.slice_length - done);
-        take(static_cast<const Window&>(piece));
-    }
 }
 
 /// Collective. Same as put_list(), if each process can compute the size in bytes of its slice of

@@ -2,6 +2,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -9,8 +10,10 @@
 #include <gtest/gtest.h>
 
 #include <octetra/verify/certify_shapes.hpp>
+#include <octetra/verify/verify.hpp>
 
 #include "verify/port_of_shapes.hpp"
+#include "verify/verdicts.hpp"
 
 /// Adaptive refinement by the rules of docs/shapes.md, in integers, against the certificates of its
 /// cells.
@@ -206,6 +209,69 @@ TEST_P(RegularRefinement, MakesNoCellWorseThanTheCertificateOfItsRoot) {
         }
     }
     EXPECT_GT(transition_cells, 100U);
+}
+
+/// The cells as a mesh; cells with equal corners share vertices.
+Mesh mesh_of(const std::vector<Tetrahedron>& cells) {
+    Mesh mesh;
+    std::map<Corner, VertexIndex> numbers;
+    for (const Tetrahedron& cell : cells) {
+        CellVertices vertices;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto [known, is_new] = numbers.try_emplace(cell[k], mesh.points.end_index());
+            if (is_new) mesh.points.push_back(test::point_of(cell[k]));
+            vertices[k] = known->second;
+        }
+        mesh.cells.push_back(vertices);
+    }
+    return mesh;
+}
+
+/// The whole mesh as a mesh; positively oriented.
+Mesh mesh_of(const std::vector<Leaf>& leaves) {
+    std::vector<Tetrahedron> cells;
+    for (const Leaf& leaf : leaves) {
+        cells.push_back(leaf.cell);
+        if (test::six_volumes(cells.back()) < 0) std::swap(cells.back()[2], cells.back()[3]);
+    }
+    return mesh_of(cells);
+}
+
+TEST_P(RegularRefinement, IsVerifiedUntilATransitionCellIsBisected) {
+    const auto [distortion, at_corner] = GetParam();
+    std::mt19937 random(11);
+    const std::vector<Tetrahedron> roots = distorted_cube(random, distortion);
+    const Mesh coarse = mesh_of(roots);
+    const VerifyOptions regular{.closure = Closure::regular};
+    RegularMesh mesh(roots);
+    for (int step = 0; step < 4; ++step) {
+        mesh.refine(some_of(mesh.leaves(), at_corner, random));
+        const Verdict verdict = verify_refinement(coarse, mesh_of(mesh.leaves()), regular);
+        EXPECT_EQ(test::codes_of(verdict), "") << step;
+        EXPECT_EQ(test::check_named(verdict, "regular closure").status, Status::passed);
+    }
+    // The bisection of all cells at an edge between two midpoints is a refinement, but not a
+    // regular one.
+    const std::vector<Leaf> leaves = mesh.leaves();
+    std::vector<EndPoints> inner;
+    for (const Leaf& leaf : leaves) {
+        const auto is_corner = [&](const Corner& c) {
+            return std::ranges::find(leaf.parent, c) != leaf.parent.end();
+        };
+        for (const EndPoints& e : edges_of(leaf.cell)) {
+            if (leaf.is_transition && !is_corner(e[0]) && !is_corner(e[1])) inner.push_back(e);
+        }
+    }
+    ASSERT_FALSE(inner.empty());
+    std::vector<Tetrahedron> pieces;
+    const EndPoints bisected = inner[random() % inner.size()];
+    for (const Leaf& leaf : leaves) test::bisect(leaf.cell, {bisected}, pieces);
+    for (Tetrahedron& piece : pieces) {
+        if (test::six_volumes(piece) < 0) std::swap(piece[2], piece[3]);
+    }
+    EXPECT_EQ(test::codes_of(verify_refinement(coarse, mesh_of(pieces), {})), "");
+    const std::string codes = test::codes_of(verify_refinement(coarse, mesh_of(pieces), regular));
+    EXPECT_NE(codes.find("bisected_transition_cell"), std::string::npos) << codes;
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, RegularRefinement,

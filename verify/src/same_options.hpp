@@ -21,6 +21,8 @@ inline void check_same_options(const ProcessGroup& group, const VerifyOptions& o
                          ? fmt::format("{} levels of scheme {}", options.request->levels,
                                        static_cast<int>(options.request->scheme))
                          : std::string("none"));
+    group.check_same("option closure",
+                     options.closure == Closure::regular ? "regular" : "longest-edge");
     group.check_same("option maps", options.maps != nullptr ? "given" : "none");
 }
 

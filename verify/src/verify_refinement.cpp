@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include <octetra/core/error.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
 #include "judge_refinement.hpp"
@@ -99,6 +100,13 @@ bool has_coincident_vertices(const JudgedMesh& judged) {
     }
     std::sort(points.begin(), points.end());
     return std::adjacent_find(points.begin(), points.end()) != points.end();
+}
+
+void check_request_of_closure(const VerifyOptions& options) {
+    if (options.closure == Closure::longest_edge || !options.request) return;
+    throw InputError(
+        "the regular closure is verified for any marks; a request requires the longest-edge "
+        "closure");
 }
 
 std::string_view name_of_range_check(Which which) {
@@ -220,6 +228,11 @@ private:
                 return check_maps(*options_.maps, coarse_, fine_, descent, findings_);
             });
         }
+        if (options_.closure == Closure::regular) {
+            findings_.run("regular closure", [&] {
+                return check_regular_closure(coarse_, fine_, lines, descent, findings_);
+            });
+        }
         if (options_.request) {
             findings_.run("8T-LE", [&] {
                 return check_request(*options_.request, coarse_, fine_, lines, descent, findings_);
@@ -232,6 +245,7 @@ private:
             "descent", "vertices", "cover", "volumes of cells", "face angles", "sums by tag"};
         for (std::size_t i = first; i < names.size(); ++i) findings_.skip(names[i], why);
         if (options_.maps != nullptr) findings_.skip("maps", why);
+        if (options_.closure == Closure::regular) findings_.skip("regular closure", why);
         if (options_.request) findings_.skip("8T-LE", why);
     }
 
@@ -258,6 +272,7 @@ bool judge_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions&
 
 Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options) {
     const StandardArithmetic standard;
+    check_request_of_closure(options);
     Findings findings(options.kept_per_code, ProcessGroup::alone(), options.progress);
     (void)judge_refinement(coarse, fine, options, findings);
     return findings.finish();
@@ -268,6 +283,7 @@ Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const ProcessGroup& 
     if (group.size() == 1) return verify_refinement(coarse.lists, fine.lists, options);
     const StandardArithmetic standard;
     check_same_options(group, options);
+    check_request_of_closure(options);
     Findings findings(options.kept_per_code, group, options.progress);
     const auto in_range = [&](const MeshSlice& slice, Which which) {
         return findings.run(name_of_range_check(which),

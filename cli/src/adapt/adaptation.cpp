@@ -132,11 +132,22 @@ verify::Request request_of(RefineStep step, const MeshFacts& read,
     return {step.selection, step.scheme, step.typed.levels};
 }
 
+bool is_regular_step(const ScriptStep& step) {
+    const auto* const refine = std::get_if<RefineStep>(&step.step);
+    return refine != nullptr && refine->closure == Closure::regular;
+}
+
 bool has_regular_step(const Script& script) {
-    return std::ranges::any_of(script.steps, [](const ScriptStep& step) {
-        const auto* const refine = std::get_if<RefineStep>(&step.step);
-        return refine != nullptr && refine->closure == Closure::regular;
+    return std::ranges::any_of(script.steps, is_regular_step);
+}
+
+/// Returns the closure of all steps that refine; that of longest edges if they differ, as they can
+/// if the mesh was coarsened to the input.
+Closure common_closure(const Script& script) {
+    const bool are_all = std::ranges::all_of(script.steps, [](const ScriptStep& step) {
+        return !std::holds_alternative<RefineStep>(step.step) || is_regular_step(step);
     });
+    return are_all && has_regular_step(script) ? Closure::regular : Closure::longest_edge;
 }
 
 /// Collective. Returns whether the result satisfies the claim.
@@ -150,7 +161,7 @@ bool is_valid(const Run& run, const distributed::AdaptiveMesh& mesh, verify::Mes
     const distributed::Phase phase(run.world, "verify");
     std::optional<MapsSince> maps;
     if (since) maps.emplace(mesh, *since);
-    Judgement judgement{.is_regular = has_regular_step(script), .maps = maps ? &*maps : nullptr};
+    Judgement judgement{.closure = common_closure(script), .maps = maps ? &*maps : nullptr};
     if (options.claim == Claim::refines_mesh) {
         judgement.request =
             request_of(std::get<RefineStep>(script.steps.front().step), read, run.world);

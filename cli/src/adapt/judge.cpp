@@ -10,7 +10,6 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/maps_of_all.hpp"
-#include "adapt/step_texts.hpp"
 #include "commands/mesh_options.hpp"
 #include "terminal.hpp"
 #include "verdict/print_verdict.hpp"
@@ -46,10 +45,8 @@ bool is_valid_refinement(const Run& run, verify::MeshSlice coarse, verify::MeshS
     const JudgedFiles judged{fine_name, coarse_name, fine.lists.index_base,
                              coarse.lists.index_base};
     verify::VerifyOptions options{.request = judgement.request,
+                                  .closure = judgement.closure,
                                   .kept_per_code = described_of_each_code};
-    if (judgement.is_regular && run.world.is_first()) {
-        note(std::string(regular_closure_is_unchecked));
-    }
     RefinementMaps maps;
     if (judgement.maps != nullptr) {
         maps = maps_of_all(*judgement.maps, run.world);

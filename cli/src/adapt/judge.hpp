@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include <octetra/core/closure.hpp>
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/verify/verify.hpp>
@@ -20,9 +21,9 @@ namespace octetra::cli {
 /// The property to be verified.
 struct Judgement {
     std::optional<verify::Request> request;  ///< if not set: any refinement by midpoints
-    bool is_regular = false;                 ///< whether the regular closure was used
-    MeshSource* maps = nullptr;              ///< has maps to be checked, if not null
-    bool is_only_output = false;             ///< whether the run writes no other mesh
+    Closure closure = Closure::longest_edge;
+    MeshSource* maps = nullptr;   ///< has maps to be checked, if not null
+    bool is_only_output = false;  ///< whether the run writes no other mesh
 };
 
 /// Collective. Verifies OUT as a refinement of MESH, as octetra verify does; no process holds the

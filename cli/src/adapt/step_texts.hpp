@@ -27,11 +27,6 @@ struct StepDone {
 /// Returns the message of an error in a level of a step that is not the first of a script.
 [[nodiscard]] std::string with_level(std::string_view what, int level, int levels);
 
-/// The limit of verification after refinement with the regular closure.
-inline constexpr std::string_view regular_closure_is_unchecked =
-    "the verifier does not check the rules of the regular closure, only that the mesh is "
-    "conforming and refines the input by bisections at midpoints";
-
 inline constexpr std::string_view regular_history_is_lost =
     "the bounds of the regular closure hold for refinements that continue from a checkpoint "
     "(-o FILE.octetra); this file does not hold the history";

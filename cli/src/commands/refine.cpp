@@ -119,10 +119,9 @@ void report_refined(const Run& run, const RefineStep& step, int levels, int rank
 /// Collective. Returns whether the result of the step is valid, and reports it.
 bool is_valid(const Run& run, const RefineStep& step, verify::MeshSlice coarse, MeshSource& fine,
               bool has_maps) {
-    Judgement judgement{.is_regular = step.closure == Closure::regular,
-                        .maps = has_maps ? &fine : nullptr,
-                        .is_only_output = true};
-    if (!judgement.is_regular) {
+    Judgement judgement{
+        .closure = step.closure, .maps = has_maps ? &fine : nullptr, .is_only_output = true};
+    if (step.closure == Closure::longest_edge) {
         judgement.request = {step.selection, step.scheme, step.typed.levels};
     }
     if (!is_valid_refinement(run, std::move(coarse), verify::slice_of(fine), judgement)) {

@@ -24,11 +24,9 @@ void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
         ->type_name("8t|4t|2t");
 }
 
-void add_closure_option(CLI::App& subcommand, RefinementOptions& options) {
-    subcommand
-        .add_option("--closure", options.closure,
-                    "regular: bounds the angles of all refinements that continue from a checkpoint "
-                    "with\nthe same option [longest-edge]")
+void add_closure_option(CLI::App& subcommand, RefinementOptions& options,
+                        const std::string& description) {
+    subcommand.add_option("--closure", options.closure, description)
         ->type_name("longest-edge|regular");
 }
 

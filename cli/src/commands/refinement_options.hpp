@@ -22,8 +22,12 @@ struct RefinementOptions {
 void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
                             const std::string& group);
 
-/// Declares --closure, for subcommands that refine.
-void add_closure_option(CLI::App& subcommand, RefinementOptions& options);
+/// Declares --closure, for subcommands that refine or verify a refinement.
+void add_closure_option(
+    CLI::App& subcommand, RefinementOptions& options,
+    const std::string& description =
+        "regular: bounds the angles of all refinements that continue from a checkpoint with\nthe "
+        "same option [longest-edge]");
 
 /// Returns whether the option with this name, without dashes, was given.
 [[nodiscard]] bool was_given(const CLI::App& subcommand, std::string_view name);

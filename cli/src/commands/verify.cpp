@@ -86,6 +86,16 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
     const std::string no_place = "the format of the fine mesh cannot hold them";
     if (!fine.empty() && !can_hold_attributes(fine)) options.attributes_lost = no_place;
     if (!fine.empty() && !can_hold_vertex_markers(fine)) options.vertex_markers_lost = no_place;
+    options.closure = parse_closure(given.refinement);
+    if (options.closure == Closure::regular) {
+        if (given.second.empty()) {
+            throw InputError("verify: --closure regular requires COARSE and REFINED");
+        }
+        if (options.request) {
+            throw InputError(
+                "verify: --closure regular is checked for any marked cells: omit the selection");
+        }
+    }
     if (given.second.empty() && options.request) {
         throw InputError("verify: a selection can be checked only with COARSE and REFINED");
     }
@@ -185,7 +195,8 @@ bool run(const VerifyCommandOptions& given, const distributed::Communicator& wor
              file_named("--cells", given.refinement.selection.cells_file)},
             {file_named("--report", given.report)});
     });
-    const bool has_no_request = given.before.empty() && !given.second.empty() && !options.request;
+    const bool has_no_request = given.before.empty() && !given.second.empty() && !options.request &&
+                                options.closure == Closure::longest_edge;
     CheckProgress progress;
     if (world.is_first()) options.progress = progress.progress_callback();
     JudgedFiles judged;
@@ -250,6 +261,9 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
     add_refinement_options(*command, options->refinement,
                            "Verify the 8T-LE refinement of these cells (as for refine) or, with "
                            "--coarsened-from, their coarsening");
+    add_closure_option(*command, options->refinement,
+                       "regular: check that REFINED results from the regular closure, whatever cells "
+                       "were\nmarked [longest-edge]");
     command->footer(
         "Exit status: 0 valid; 1 not valid; 2 bad usage, or a file that cannot be read;\n"
         "3 the system failed: memory, disk; 128 + its number: a signal ended a rank, for example\n"
@@ -259,6 +273,7 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"
         "  octetra verify fine.1.ele\n"
         "  octetra verify gear.1.ele fine.1.ele --sphere 1,0,0.1,0.3 --levels 2\n"
+        "  octetra verify gear.1.ele regular.1.ele --closure regular\n"
         "  octetra refine gear.1.ele --all -o fine.octetra\n"
         "  octetra coarsen fine.octetra --sphere 1,0,0.1,0.3 -o coarser.octetra\n"
         "  octetra verify coarser.octetra --coarsened-from fine.octetra --sphere 1,0,0.1,0.3\n"

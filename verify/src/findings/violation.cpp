@@ -44,6 +44,7 @@ std::string_view name(Code code) {
                                                                     "needless_bisection",
                                                                     "missing_bisection",
                                                                     "wrong_pattern",
+                                                                    "bisected_transition_cell",
                                                                     "vertex_not_before",
                                                                     "vertex_went",
                                                                     "vertex_stayed",

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include <octetra/core/closure.hpp>
 #include <octetra/core/maps.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/process_group.hpp>
@@ -35,6 +36,9 @@ struct VerifyOptions {
     /// Lower bound of all dihedral angles, in degrees, 0 to 180; decided exactly.
     std::optional<double> min_dihedral;
     std::optional<Request> request;
+    /// Closure::regular: the fine mesh must be the result of regular refinement, whatever cells
+    /// were marked; a request, which is one of Closure::longest_edge, is refused then.
+    Closure closure = Closure::longest_edge;
     const RefinementMaps* maps = nullptr;  ///< checked if not null; of the fine mesh
     /// The reason why a fine mesh has no attributes (its file format, for example). If empty,
     /// missing attributes are a violation if the coarse mesh has some.

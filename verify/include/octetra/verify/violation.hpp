@@ -57,6 +57,8 @@ enum class Code : std::uint8_t {
     needless_bisection,  ///< an edge is bisected although closure does not mark it
     missing_bisection,   ///< an edge is not bisected although closure marks it
     wrong_pattern,       ///< the right edges are bisected, but in a wrong order
+    // of the regular closure
+    bisected_transition_cell,  ///< a child of a cell with one to five bisected edges is bisected
     // of coarsening
     vertex_not_before,     ///< a vertex is not in the mesh before
     vertex_went,           ///< a vertex was removed although the rules keep it

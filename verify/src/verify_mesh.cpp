@@ -15,7 +15,6 @@ namespace {
 
 /// Runs the checks of a mesh, or a part of one, whose numbers are in range.
 void judge(JudgedMesh& judged, const VerifyOptions& options, Findings& findings) {
-    judged.keeps_cells = false;
     const bool well_formed =
         findings.run("well-formed", [&] { return check_well_formed(judged, findings); });
     findings.run("markers", [&] { return check_tagged_markers(judged, findings); });
@@ -50,7 +49,7 @@ void judge(JudgedMesh& judged, const VerifyOptions& options, Findings& findings)
                                                 ? "there are coincident or hanging vertices"
                                                 : "there are invalid cells");
     }
-    findings.verdict().angles = measure_angles(judged);
+    findings.verdict().angles = measure_angles(judged, findings.group());
     measure_sums(judged, findings);
     if (options.min_dihedral) {
         findings.run("dihedral angles", [&] {

@@ -134,7 +134,9 @@ public:
         const bool faced = findings_.run("faces", [&] { return check_faces(fine_, findings_); });
         count_singular(fine_, findings_.facts());
         judge_descent(well_formed && oriented && faced);
-        if (!options_.fast) findings_.verdict().angles = measure_angles(fine_);
+        if (!options_.fast && !findings_.verdict().angles) {
+            findings_.verdict().angles = measure_angles(fine_, findings_.group());
+        }
         if (!options_.fast && options_.min_dihedral) {
             findings_.run("dihedral angles", [&] {
                 return check_dihedral_angles(fine_, *options_.min_dihedral, findings_);
@@ -153,7 +155,8 @@ private:
             (void)check_faces(coarse_, findings_);
             const Facts none;
             findings_.facts() = none;  // set for the fine mesh later
-            if (!options_.fast) findings_.verdict().coarse_angles = measure_angles(coarse_);
+            if (!options_.fast)
+                findings_.verdict().coarse_angles = measure_angles(coarse_, findings_.group());
             return std::string("well-formed, oriented, at most two cells at a face");
         });
     }
@@ -212,7 +215,9 @@ private:
                           [&] { return check_volumes(coarse_, fine_, descent, findings_); });
             findings_.run("face angles",
                           [&] { return check_face_angles(coarse_, fine_, descent, findings_); });
-            findings_.verdict().by_depth = measure_by_depth(fine_, descent);
+            AnglesByDepth angles = measure_by_depth(fine_, descent, findings_.group());
+            findings_.verdict().angles = angles.all;
+            findings_.verdict().by_depth = std::move(angles.by_depth);
         }
         check_tags(coarse_, fine_, lines, descent, options_, findings_);
         if (options_.fast) {

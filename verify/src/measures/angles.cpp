@@ -28,9 +28,17 @@ struct CellShape {
     double most_cot = -infinity;   ///< cotangent of the smallest dihedral angle
     double least_cot = infinity;   ///< cotangent of the largest one
     double most_half = -infinity;  ///< cotangent of half the smallest solid angle
-    double eta_cubed = 0;
+    double eta_cubed = infinity;
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /// Retains the smaller, and of dihedral angles also the larger, of two angles and eta.
+    void take(const CellShape& other) {
+        most_cot = std::max(most_cot, other.most_cot);
+        least_cot = std::min(least_cot, other.least_cot);
+        most_half = std::max(most_half, other.most_half);
+        eta_cubed = std::min(eta_cubed, other.eta_cubed);
+    }
 };
 
 /// Returns the angle, from 0 to pi, with this cotangent.
@@ -113,6 +121,36 @@ void for_each_positive(const JudgedMesh& judged, auto&& visit) {
     }
 }
 
+/// The extremes of the cells of a process.
+struct Extremes {
+    CellShape shape{};
+    CellIndex least_at = CellIndex::none();  ///< the first cell with the smallest dihedral angle
+
+    void take(CellIndex c, const CellShape& other) {
+        if (other.most_cot > shape.most_cot) least_at = c;
+        shape.take(other);
+    }
+};
+
+/// Collective. Quantities are reduced before they are converted, because the rounding of a
+/// conversion may reverse the order of two numbers that are nearly equal.
+AngleFigures figures_of(const Extremes& own, const ProcessGroup& group) {
+    const CellShape shape = reduce(group, own.shape, [](CellShape a, const CellShape& b) {
+        a.take(b);
+        return a;
+    });
+    AngleFigures figures{
+        .min_dihedral = 180, .max_dihedral = 0, .min_solid = 4 * std::numbers::pi, .min_eta = 1};
+    if (shape.least_cot == CellShape::infinity) return figures;  // there are no cells
+    figures.min_dihedral = angle_of_cot(shape.most_cot) * degrees_per_radian;
+    figures.min_dihedral_at =
+        own.shape.most_cot == shape.most_cot ? own.least_at : CellIndex::none();
+    figures.max_dihedral = angle_of_cot(shape.least_cot) * degrees_per_radian;
+    figures.min_solid = 2 * angle_of_cot(shape.most_half);
+    figures.min_eta = std::min(1.0, std::cbrt(shape.eta_cubed));  // 1 for regular cells
+    return figures;
+}
+
 std::array<Point, 3> triangle(const FacetVertices& v, const Mesh& mesh) {
     return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
 }
@@ -151,55 +189,37 @@ double angle_slack(const std::array<Point, 3>& piece, double rounding) {
 
 }  // namespace
 
-AngleFigures measure_angles(const JudgedMesh& judged) {
-    AngleFigures figures{
-        .min_dihedral = 180, .max_dihedral = 0, .min_solid = 4 * std::numbers::pi, .min_eta = 1};
-    CellShape extremes;
-    extremes.eta_cubed = 1;
-    for_each_positive(judged, [&](CellIndex c, const CellShape& shape) {
-        if (shape.most_cot > extremes.most_cot) {
-            extremes.most_cot = shape.most_cot;
-            // Of several cells with the same number of degrees, the first is given.
-            const double least = angle_of_cot(shape.most_cot) * degrees_per_radian;
-            if (least < figures.min_dihedral) {
-                figures.min_dihedral = least;
-                figures.min_dihedral_at = c;
-            }
-        }
-        extremes.least_cot = std::min(extremes.least_cot, shape.least_cot);
-        extremes.most_half = std::max(extremes.most_half, shape.most_half);
-        extremes.eta_cubed = std::min(extremes.eta_cubed, shape.eta_cubed);
-    });
-    if (extremes.least_cot == CellShape::infinity) return figures;  // no cells
-    figures.max_dihedral = angle_of_cot(extremes.least_cot) * degrees_per_radian;
-    figures.min_solid = 2 * angle_of_cot(extremes.most_half);
-    figures.min_eta = std::cbrt(extremes.eta_cubed);
-    return figures;
+AngleFigures measure_angles(const JudgedMesh& judged, const ProcessGroup& group) {
+    Extremes own;
+    for_each_positive(judged, [&](CellIndex c, const CellShape& shape) { own.take(c, shape); });
+    return figures_of(own, group);
 }
 
-std::vector<DepthFigures> measure_by_depth(const JudgedMesh& fine, const Descent& descent) {
-    struct Extremes {
-        std::uint64_t cells = 0;
-        double most_cot = -CellShape::infinity;
-        double eta_cubed = CellShape::infinity;
-    };
-    std::vector<Extremes> by_depth(256);
+AnglesByDepth measure_by_depth(const JudgedMesh& fine, const Descent& descent,
+                               const ProcessGroup& group) {
+    constexpr std::size_t depths = 256;
+    std::vector<std::uint64_t> cells(depths, 0);
+    std::array<CellShape, depths> by_depth;
+    Extremes own;
     for_each_positive(fine, [&](CellIndex c, const CellShape& shape) {
-        Extremes& extremes = by_depth[descent.depth[c]];
-        ++extremes.cells;
-        extremes.most_cot = std::max(extremes.most_cot, shape.most_cot);
-        extremes.eta_cubed = std::min(extremes.eta_cubed, shape.eta_cubed);
+        ++cells[descent.depth[c]];
+        by_depth[descent.depth[c]].take(shape);
+        own.take(c, shape);
     });
-    std::vector<DepthFigures> figures;
-    for (std::size_t depth = 0; depth < by_depth.size(); ++depth) {
-        const Extremes& extremes = by_depth[depth];
-        if (extremes.cells == 0) continue;
-        figures.push_back({.depth = static_cast<int>(depth),
-                           .cells = extremes.cells,
-                           .min_dihedral = angle_of_cot(extremes.most_cot) * degrees_per_radian,
-                           .min_eta = std::cbrt(extremes.eta_cubed)});
+    by_depth = reduce(group, by_depth, [](auto a, const auto& b) {
+        for (std::size_t depth = 0; depth < depths; ++depth) a[depth].take(b[depth]);
+        return a;
+    });
+    AnglesByDepth angles{figures_of(own, group), {}};
+    for (std::size_t depth = 0; depth < depths; ++depth) {
+        if (cells[depth] == 0) continue;
+        angles.by_depth.push_back(
+            {.depth = static_cast<int>(depth),
+             .cells = cells[depth],
+             .min_dihedral = angle_of_cot(by_depth[depth].most_cot) * degrees_per_radian,
+             .min_eta = std::min(1.0, std::cbrt(by_depth[depth].eta_cubed))});
     }
-    return figures;
+    return angles;
 }
 
 std::string check_dihedral_angles(const JudgedMesh& judged, double degrees, Findings& findings) {

@@ -6,12 +6,18 @@
 
 namespace octetra::verify {
 
-/// Computes the angle figures of all positive cells, in floating point.
-[[nodiscard]] AngleFigures measure_angles(const JudgedMesh& judged);
+/// Collective. Returns the angle figures of all positive cells of all processes, in floating point.
+/// The cell of the smallest angle is none() on processes that do not own it.
+[[nodiscard]] AngleFigures measure_angles(const JudgedMesh& judged, const ProcessGroup& group);
 
-/// As above, by depth below the coarse cells.
-[[nodiscard]] std::vector<DepthFigures> measure_by_depth(const JudgedMesh& fine,
-                                                         const Descent& descent);
+struct AnglesByDepth {
+    AngleFigures all;
+    std::vector<DepthFigures> by_depth;  ///< by depth below the coarse cells
+};
+
+/// Collective. As above, and by depth, where numbers of cells are of this process.
+[[nodiscard]] AnglesByDepth measure_by_depth(const JudgedMesh& fine, const Descent& descent,
+                                             const ProcessGroup& group);
 
 /// Checks exactly that no dihedral angle is less than `degrees`.
 std::string check_dihedral_angles(const JudgedMesh& judged, double degrees, Findings& findings);

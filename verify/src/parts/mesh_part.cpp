@@ -166,7 +166,7 @@ MeshPart part_in_view(const LocatedSlice& from, const Views& views, const Proces
     append_vertices(cells, numbers);
     append_vertices(facets, numbers);
     append_vertices(edges, numbers);
-    const VertexLookup vertices(std::move(numbers));
+    const VertexLookup vertices(numbers);
 
     MeshPart part;
     Mesh& mesh = part.mesh;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -8,19 +9,27 @@
 
 namespace octetra::verify {
 
-/// A set of vertices of a whole mesh, ascending, with lookup of their positions.
+/// A set of vertices of a whole mesh, ascending, with lookup of their positions: a bit for each
+/// number up to the largest one.
 class VertexLookup {
 public:
     /// `numbers` may be in any order and contain repetitions.
-    explicit VertexLookup(std::vector<std::uint32_t> numbers) : numbers_(std::move(numbers)) {
-        std::sort(numbers_.begin(), numbers_.end());
-        numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
-        numbers_.shrink_to_fit();
-        if (numbers_.empty()) return;
-        bucket_begin_.assign(bucket_of(numbers_.back()) + 2, 0);
-        for (const std::uint32_t n : numbers_) ++bucket_begin_[bucket_of(n) + 1];
-        for (std::size_t b = 1; b < bucket_begin_.size(); ++b) {
-            bucket_begin_[b] += bucket_begin_[b - 1];
+    explicit VertexLookup(const std::vector<std::uint32_t>& numbers) {
+        if (numbers.empty()) return;
+        bits_.assign(*std::max_element(numbers.begin(), numbers.end()) / 64 + 1, 0);
+        for (const std::uint32_t n : numbers) bits_[n / 64] |= std::uint64_t{1} << n % 64;
+        before_.reserve(bits_.size());
+        std::uint32_t count = 0;
+        for (const std::uint64_t word : bits_) {
+            before_.push_back(count);
+            count += static_cast<std::uint32_t>(std::popcount(word));
+        }
+        numbers_.reserve(count);
+        for (std::uint32_t first = 0; std::uint64_t word : bits_) {
+            for (; word != 0; word &= word - 1) {
+                numbers_.push_back(first + static_cast<std::uint32_t>(std::countr_zero(word)));
+            }
+            first += 64;
         }
     }
 
@@ -28,23 +37,16 @@ public:
 
     /// Returns none() for a number that is not in the set.
     [[nodiscard]] VertexIndex find(std::uint32_t number) const {
-        const std::size_t bucket = bucket_of(number);
-        if (bucket + 1 >= bucket_begin_.size()) return VertexIndex::none();
-        const auto at = [&](std::size_t i) {
-            return numbers_.begin() + static_cast<std::ptrdiff_t>(i);
-        };
-        const auto end = at(bucket_begin_[bucket + 1]);
-        const auto found = std::lower_bound(at(bucket_begin_[bucket]), end, number);
-        if (found == end || *found != number) return VertexIndex::none();
-        return VertexIndex{static_cast<std::size_t>(found - numbers_.begin())};
+        const std::size_t k = number / 64;
+        if (k >= bits_.size() || (bits_[k] >> number % 64 & 1U) == 0) return VertexIndex::none();
+        const std::uint64_t lower = bits_[k] & ((std::uint64_t{1} << number % 64) - 1);
+        return VertexIndex{before_[k] + static_cast<std::uint32_t>(std::popcount(lower))};
     }
 
 private:
-    static constexpr unsigned bucket_bits = 6;  // a compromise of speed and memory
-    static std::size_t bucket_of(std::uint32_t number) { return number >> bucket_bits; }
-
     std::vector<std::uint32_t> numbers_;
-    std::vector<std::uint32_t> bucket_begin_;
+    std::vector<std::uint64_t> bits_;
+    std::vector<std::uint32_t> before_;  ///< for each word of bits, the count in earlier ones
 };
 
 }  // namespace octetra::verify

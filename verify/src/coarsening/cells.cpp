@@ -75,13 +75,14 @@ std::string check_unions(const Lineage& lineage, int levels, const Mesh& after,
     const BeforeMesh before(lineage);
     Lines lines(before.judged, before.places);
     CellDivider divider(judged_whole(after, Which::fine), before.judged, lines);
+    CellFinder cells_before(before.judged);
     std::size_t unions = 0;
     Steps step(findings, after.cells.size());
     for (CellIndex c{0}; c < after.cells.end_index(); ++c) {
         step();
         const auto cell = as_before(after.cells[c], match);
         if (!cell) continue;  // has a vertex that was already reported
-        if (before.judged.cells.contains(*cell)) continue;
+        if (!cells_before.find(*cell).is_none()) continue;
         if (!divider.divide_cell(*cell)) {
             findings.add(Code::cell_not_before, [&]() -> Findings::Description {
                 return {{entity(c), entity(divider.undivided(), Which::before)},

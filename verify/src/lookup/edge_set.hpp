@@ -11,7 +11,7 @@ namespace octetra::verify {
 /// The distinct edges of cells, searchable by their ends, in ascending order of (lower, higher)
 /// end. Memory: 8 bytes per vertex and 4 per edge. Built in passes over ranges of lower ends,
 /// because every edge is visited once for each of its cells; a single pass would take five times
-/// the memory.
+/// the memory, and each pass takes time.
 class EdgeSet {
 public:
     EdgeSet() = default;
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t pass_count = 8;
+    static constexpr std::uint64_t pass_count = 3;
     static constexpr std::uint64_t min_pass_size = 1U << 16U;
 
     static std::ptrdiff_t offset(std::uint64_t i) { return static_cast<std::ptrdiff_t>(i); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -50,10 +51,8 @@ struct JudgedMesh {
     std::vector<char> sound{};
     /// The orientation +1, 0 or -1 of each cell; also 0 if it is not sound.
     std::vector<std::int8_t> sign{};
-    bool keeps_cells = true;  ///< otherwise `cells` stays empty; needed for refinements only
-    Buckets<4> cells{};       ///< all cells with four distinct vertices; tag: number
-    Buckets<3> faces{};       ///< faces of sound cells; tag: tag_of(CellFace)
-    EdgeSet edges{};          ///< edges of sound cells
+    Buckets<3> faces{};  ///< faces of sound cells; tag: tag_of(CellFace)
+    EdgeSet edges{};     ///< edges of sound cells
 
     [[nodiscard]] bool is_sound(CellIndex c) const { return sound[c.value()] != 0; }
     [[nodiscard]] std::array<Point, 4> corners(CellIndex c) const {
@@ -75,6 +74,44 @@ struct JudgedMesh {
     const int inversions = (v[0] > v[1] ? 1 : 0) + (v[0] > v[2] ? 1 : 0) + (v[1] > v[2] ? 1 : 0);
     return inversions % 2 == 0;
 }
+
+/// Finds the sound cells of a mesh by their vertices, in any order. Faster for cells asked for in
+/// the order of the mesh.
+class CellFinder {
+public:
+    explicit CellFinder(const JudgedMesh& judged) : judged_(&judged) {}
+
+    /// Returns the cell with these vertices, or none().
+    [[nodiscard]] CellIndex find(const CellVertices& vertices) {
+        const auto& cells = judged_->mesh.cells;
+        if (next_ < cells.end_index() && judged_->is_sound(next_) && same(vertices, cells[next_])) {
+            const CellIndex found = next_;
+            ++next_;
+            return found;
+        }
+        CellVertices v = vertices;
+        std::sort(v.begin(), v.end());
+        for (const auto& entry : judged_->faces.find({v[0], v[1], v[2]})) {
+            const CellFace f = cell_face(entry.tag);
+            if (cells[f.cell][f.face] != v[3]) continue;
+            next_ = f.cell;
+            ++next_;
+            return f.cell;
+        }
+        return CellIndex::none();
+    }
+
+private:
+    /// Precondition: the vertices of `b` are distinct.
+    static bool same(const CellVertices& a, const CellVertices& b) {
+        return a == b || std::all_of(b.begin(), b.end(), [&](VertexIndex v) {
+                   return v == a[0] || v == a[1] || v == a[2] || v == a[3];
+               });
+    }
+
+    const JudgedMesh* judged_;
+    CellIndex next_{0};  ///< after the last one found
+};
 
 /// For each vertex, 1 if it belongs to a cell, and 0 otherwise.
 [[nodiscard]] inline std::vector<char> used_vertices(const Mesh& mesh) {

@@ -86,7 +86,23 @@ void check_markers(const IndexVector<I, std::array<VertexIndex, N>>& list,
     });
 }
 
-void find_sound_cells(JudgedMesh& judged, Findings& findings) {
+void for_each_sound_cell(const JudgedMesh& judged, auto&& visit) {
+    for (CellIndex c{0}; c < judged.mesh.cells.end_index(); ++c) {
+        if (judged.is_sound(c)) visit(c, judged.mesh.cells[c]);
+    }
+}
+
+Buckets<3> faces_of_sound_cells(const JudgedMesh& judged) {
+    return Buckets<3>(judged.mesh.points.size(), [&](auto&& visit) {
+        for_each_sound_cell(judged, [&](CellIndex c, const CellVertices& cell) {
+            for (std::size_t face = 0; face < 4; ++face) {
+                visit(outward_face(cell, face), tag_of({c, face}));
+            }
+        });
+    });
+}
+
+void reject_cells_with_repetitions(JudgedMesh& judged, Findings& findings) {
     const Mesh& mesh = judged.mesh;
     judged.sound.assign(mesh.cells.size(), 1);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
@@ -97,10 +113,29 @@ void find_sound_cells(JudgedMesh& judged, Findings& findings) {
             return {{entity(c, judged.which)}, "a vertex twice", "four different vertices"};
         });
     }
-    Buckets<4> by_vertices(mesh.points.size(), [&](auto&& visit) {
-        for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-            if (judged.is_sound(c)) visit(mesh.cells[c], c.value());
+}
+
+/// Returns whether any two cells have the same vertices: a face in common, and its opposite
+/// corners.
+bool has_repeated_cells(const JudgedMesh& judged) {
+    bool found = false;
+    judged.faces.for_each_group([&](const FacetVertices&, auto entries) {
+        const auto opposite = [&](std::size_t i) {
+            const CellFace f = cell_face(entries[i].tag);
+            return judged.mesh.cells[f.cell][f.face];
+        };
+        for (std::size_t i = 1; i < entries.size() && !found; ++i) {
+            for (std::size_t k = 0; k < i; ++k) found = found || opposite(i) == opposite(k);
         }
+    });
+    return found;
+}
+
+void reject_repeated_cells(JudgedMesh& judged, Findings& findings) {
+    const Mesh& mesh = judged.mesh;
+    const Buckets<4> by_vertices(mesh.points.size(), [&](auto&& visit) {
+        for_each_sound_cell(judged,
+                            [&](CellIndex c, const CellVertices& cell) { visit(cell, c.value()); });
     });
     by_vertices.for_each_group([&](const CellVertices& vertices, auto cells) {
         for (std::size_t k = 1; k < cells.size(); ++k) {
@@ -115,7 +150,6 @@ void find_sound_cells(JudgedMesh& judged, Findings& findings) {
             });
         }
     });
-    if (judged.keeps_cells) judged.cells = std::move(by_vertices);
 }
 
 }  // namespace
@@ -160,21 +194,14 @@ std::string check_slice_ranges(const MeshSlice& slice, Which which, Findings& fi
 
 std::string check_well_formed(JudgedMesh& judged, Findings& findings) {
     const Mesh& mesh = judged.mesh;
-    find_sound_cells(judged, findings);
-    const auto for_each_sound = [&](auto&& visit) {
-        for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-            if (judged.is_sound(c)) visit(c, mesh.cells[c]);
-        }
-    };
-    judged.faces = Buckets<3>(mesh.points.size(), [&](auto&& visit) {
-        for_each_sound([&](CellIndex c, const CellVertices& cell) {
-            for (std::size_t face = 0; face < 4; ++face) {
-                visit(outward_face(cell, face), tag_of({c, face}));
-            }
-        });
-    });
+    reject_cells_with_repetitions(judged, findings);
+    judged.faces = faces_of_sound_cells(judged);
+    if (has_repeated_cells(judged)) {
+        reject_repeated_cells(judged, findings);
+        judged.faces = faces_of_sound_cells(judged);
+    }
     judged.edges = EdgeSet(mesh.points.size(), [&](auto&& visit) {
-        for_each_sound([&](CellIndex, const CellVertices& cell) {
+        for_each_sound_cell(judged, [&](CellIndex, const CellVertices& cell) {
             for (const auto& [i, j] : cell_edges) visit(EdgeVertices{cell[i], cell[j]});
         });
     });

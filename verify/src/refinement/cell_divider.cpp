@@ -73,7 +73,7 @@ std::array<Piece, 8> eight_pieces(const Piece& piece, const std::array<VertexInd
 }  // namespace
 
 CellDivider::CellDivider(const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines)
-    : fine_(&fine), lines_(&lines) {
+    : fine_(&fine), cells_(fine), lines_(&lines) {
     // A correct mesh needs two pieces for each fine cell, and some that are discarded.
     const std::size_t cells = coarse.mesh.cells.size() + fine.mesh.cells.size();
     budget_ = 100'000 + 20 * static_cast<std::int64_t>(cells);
@@ -99,9 +99,8 @@ bool CellDivider::attempt(const auto& pieces) {
 }
 
 bool CellDivider::divide(const Piece& piece) {
-    const auto found = fine_->cells.find(piece.vertices);
-    if (!found.empty()) {
-        leaves_.push_back({CellIndex{found.front().tag}, piece});
+    if (const CellIndex found = cells_.find(piece.vertices); !found.is_none()) {
+        leaves_.push_back({found, piece});
         return true;
     }
     CellVertices ascending = piece.vertices;

@@ -66,6 +66,7 @@ private:
     bool cut_into_eight(const Piece& piece);
 
     const JudgedMesh* fine_;
+    CellFinder cells_;  ///< of the fine mesh
     Lines* lines_;
     std::vector<Leaf> leaves_;
     std::vector<Split> splits_;

@@ -17,7 +17,7 @@ public:
     Lines(const JudgedMesh& fine, const PointLookup& places);
 
     [[nodiscard]] bool is_whole(VertexIndex a, VertexIndex b) const {
-        return whole_.find(a, b) != EdgeTable::absent;
+        return fine_->edges.contains({a, b});
     }
     /// Returns the vertex that divides the line a, b into two lines, or none().
     [[nodiscard]] VertexIndex midpoint(VertexIndex a, VertexIndex b);
@@ -29,10 +29,10 @@ public:
     [[nodiscard]] bool halves_a_line(VertexIndex v) const { return halves_[v.value()] != 0; }
 
 private:
-    const Mesh* mesh_;
+    const JudgedMesh* fine_;
     const PointLookup* places_;
-    EdgeTable whole_;      ///< edges of the fine mesh
-    EdgeTable midpoints_;  ///< results of midpoint() so far; no_midpoint for none()
+    /// Results of midpoint() so far, where a vertex is half way; no_midpoint for none().
+    EdgeTable midpoints_;
     std::vector<char> halves_;
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -196,23 +197,25 @@ private:
         std::vector<Cell> children;
         children.reserve(2 * cells_.size());
         for (std::size_t c = 0; c < cells_.size(); ++c) {
-            std::array<EdgeNumber, 6> edges = cell_to_edges_[c];
-            // Sort by descending length. (Insertion sort: the order is strict, and there are only
-            // six.)
-            for (std::size_t i = 1; i < 6; ++i) {
-                for (std::size_t k = i; k > 0 && is_longer(edges[k], edges[k - 1]); --k) {
+            std::array<EdgeNumber, 6> edges;
+            std::size_t count = 0;
+            // The marked edges by descending length. (Insertion sort: the order is strict, and
+            // there are at most six.)
+            for (const EdgeNumber e : cell_to_edges_[c]) {
+                if (marked_[e] == 0) continue;
+                edges[count] = e;
+                for (std::size_t k = count++; k > 0 && is_longer(edges[k], edges[k - 1]); --k) {
                     std::swap(edges[k], edges[k - 1]);
                 }
             }
-            bisect(cells_[c], edges, children);
+            bisect(cells_[c], {edges.data(), count}, children);
         }
         cells_ = std::move(children);
     }
 
-    void bisect(const Cell& cell, const std::array<EdgeNumber, 6>& longest_first,
+    void bisect(const Cell& cell, std::span<const EdgeNumber> longest_first,
                 std::vector<Cell>& children) const {
         for (const EdgeNumber e : longest_first) {
-            if (marked_[e] == 0) continue;
             const auto position = [&](VertexIndex v) {
                 return static_cast<std::size_t>(
                     std::find(cell.vertices.begin(), cell.vertices.end(), v) -
@@ -241,8 +244,9 @@ private:
 
     void compare_with_fine() {
         EdgeTable reported(16);
+        CellFinder fine_cells(fine_);
         for (const Cell& cell : cells_) {
-            if (fine_.cells.contains(cell.vertices)) continue;
+            if (!fine_cells.find(cell.vertices).is_none()) continue;
             bool explained = false;
             for (const auto& [i, j] : cell_edges) {
                 const EdgeVertices edge{cell.vertices[i], cell.vertices[j]};

@@ -123,6 +123,22 @@ TEST(Conformity, IsNotProvenForFacesThatMeetInTheirPlane) {
     EXPECT_EQ(codes_of(test::verified_by_all(triangle)), "hanging_vertex");
 }
 
+/// No vertex is in the other cell, nor a point beside a face: only edges show the overlap, and they
+/// pass faces other than the first of their cell.
+TEST(Conformity, IsNotProvenForANeedleThroughACell) {
+    const Mesh mesh = test::mesh_of({{0, 0, 4},
+                                     {0, 0, 0},
+                                     {0, 4, 0},
+                                     {4, 0, 0},
+                                     {-1, 0.95, 1.05},
+                                     {5, 0.9, 1},
+                                     {5, 1, 1},
+                                     {5, 0.95, 1.1}},
+                                    {{0, 1, 2, 3}, {4, 5, 6, 7}});
+    EXPECT_FALSE(is_proven(mesh));
+    EXPECT_EQ(codes_of(test::verified_by_all(mesh)), "boundary_crosses");
+}
+
 /// The cells around an edge turn about it twice, and the boundary around them is one shell.
 TEST(Conformity, IsNotProvenForCellsThatOverlapAroundAnEdge) {
     constexpr std::size_t n = 14;

@@ -261,9 +261,10 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
     add_refinement_options(*command, options->refinement,
                            "Verify the 8T-LE refinement of these cells (as for refine) or, with "
                            "--coarsened-from, their coarsening");
-    add_closure_option(*command, options->refinement,
-                       "regular: check that REFINED results from the regular closure, whatever cells "
-                       "were\nmarked [longest-edge]");
+    add_closure_option(
+        *command, options->refinement,
+        "regular: check that REFINED results from the regular closure, whatever cells "
+        "were\nmarked [longest-edge]");
     command->footer(
         "Exit status: 0 valid; 1 not valid; 2 bad usage, or a file that cannot be read;\n"
         "3 the system failed: memory, disk; 128 + its number: a signal ended a rank, for example\n"

@@ -21,7 +21,12 @@ class RegularCheck {
 public:
     RegularCheck(const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines,
                  const Descent& descent, Findings& findings)
-        : coarse_(coarse), fine_(fine), lines_(lines), descent_(descent), findings_(findings) {}
+        : coarse_(coarse),
+          fine_(fine),
+          lines_(lines),
+          descent_(descent),
+          findings_(findings),
+          finder_(fine) {}
 
     std::string run() {
         Steps step(findings_, coarse_.mesh.cells.size());
@@ -57,9 +62,13 @@ private:
         return longer(segment(cell.ends(e)), segment(cell.ends(f)));
     }
 
+    [[nodiscard]] bool is_fine_cell(const CellVertices& vertices) {
+        return !finder_.find(vertices).is_none();
+    }
+
     void visit(const CellVertices& vertices, int generation) {
         generations_ = std::max(generations_, generation);
-        if (fine_.cells.contains(vertices)) return;
+        if (is_fine_cell(vertices)) return;
         RegularCell cell{vertices, {}};
         std::size_t bisected = 0;
         for (std::size_t e = 0; e < 6; ++e) {
@@ -80,7 +89,7 @@ private:
         for (const CellVertices& child : children) {
             if (bisected == 6) {
                 visit(child, generation + 1);
-            } else if (!fine_.cells.contains(child)) {
+            } else if (!is_fine_cell(child)) {
                 report_child(child);
             }
         }
@@ -139,6 +148,7 @@ private:
     Lines& lines_;
     const Descent& descent_;
     Findings& findings_;
+    CellFinder finder_;       ///< of the fine mesh
     EdgeTable reported_{16};  ///< edges that are not bisected
     CellIndex root_;
     int generations_ = 0;

@@ -23,7 +23,7 @@ bool contains(const Bounds& box, const Point& p) {
     return box.meets(place);
 }
 
-std::array<Point, 3> corners_of(const FacetVertices& v, const Mesh& mesh) {
+std::array<Point, 3> points_of_face(const FacetVertices& v, const Mesh& mesh) {
     return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
 }
 
@@ -176,7 +176,7 @@ private:
     /// face and meets no other boundary face.
     [[nodiscard]] std::optional<Point> sample_beside(std::uint32_t f, const BoxTree& tree) {
         const CellFace cell_face = boundary_.cell_faces[f];
-        const auto corners = corners_of(boundary_.faces[f], mesh_);
+        const auto corners = points_of_face(boundary_.faces[f], mesh_);
         const Point apex = mesh_.points[mesh_.cells[cell_face.cell][cell_face.face]];
         // Near the middle, but not exactly: in a lattice, that may lie on planes of other faces.
         const Point middle = between(between(corners[0], corners[1], 0.45), corners[2], 0.29);
@@ -195,7 +195,7 @@ private:
                     clear = false;
                     return;
                 }
-                clear = !exact::meet(segment, corners_of(boundary_.faces[g], mesh_),
+                clear = !exact::meet(segment, points_of_face(boundary_.faces[g], mesh_),
                                      findings_.arithmetic());
             });
             if (clear) return segment[0];

@@ -274,6 +274,7 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"
         "  octetra verify fine.1.ele\n"
         "  octetra verify gear.1.ele fine.1.ele --sphere 1,0,0.1,0.3 --levels 2\n"
+        "  octetra refine gear.1.ele --random 0.1 --closure regular -o regular.1.ele\n"
         "  octetra verify gear.1.ele regular.1.ele --closure regular\n"
         "  octetra refine gear.1.ele --all -o fine.octetra\n"
         "  octetra coarsen fine.octetra --sphere 1,0,0.1,0.3 -o coarser.octetra\n"

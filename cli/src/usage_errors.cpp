@@ -58,11 +58,12 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 /// Returns the closest of these names, if it is close enough to be a misspelling, or an empty
-/// string.
+/// string. At most half of the letters of a misspelling, without leading dashes, are wrong.
 std::string closest_name(std::string_view word, const std::vector<std::string>& names) {
     constexpr std::size_t most = 2;
+    const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
     std::string best;
-    std::size_t least = std::min(most, word.size() / 2) + 1;
+    std::size_t least = std::min(most, (word.size() - dashes) / 2) + 1;
     for (const std::string& name : names) {
         const std::size_t found = distance(word, name);
         if (found < least) {

@@ -179,6 +179,51 @@ TEST(Compare, FindsAttributesThatAreNoNumbersEqual) {
 }
 
 /// Two cells with three coincident corners: at one face, or at a crack with separate vertices.
+/// The mesh with each coordinate moved by at most `distance`, in another direction at each vertex.
+Mesh shaken(Mesh mesh, double distance) {
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        const double angle = v.value();
+        mesh.points[v].x += distance * std::sin(angle);
+        mesh.points[v].y += distance * std::cos(angle);
+    }
+    return mesh;
+}
+
+TEST(Compare, WithinATolerance_FindsMovedVerticesInAnotherNumbering) {
+    const Mesh mesh = tagged();
+    const Mesh other = shaken(renumbered(mesh), 1e-9);
+    EXPECT_EQ(compare_within(1e-10, mesh, other).likeness, Likeness::different);
+    const Comparison found = compare_within(2e-9, mesh, other);
+    EXPECT_EQ(found.likeness, Likeness::up_to_numbering);
+    EXPECT_NEAR(found.greatest_distance, 1e-9, 1e-15);
+    EXPECT_EQ(compare_within(0, mesh, mesh).likeness, Likeness::identical);
+    EXPECT_EQ(compare_within(0, mesh, mesh).greatest_distance, 0);
+}
+
+TEST(Compare, WithinATolerance_TakesTheNearestOfSeveralVertices) {
+    const Mesh mesh = test::kuhn(2, 2, 2);  // edges from 0.5 on
+    const Comparison found = compare_within(10, mesh, shaken(mesh, 0.2));
+    EXPECT_EQ(found.likeness, Likeness::identical);
+    EXPECT_NEAR(found.greatest_distance, 0.2, 1e-12);
+}
+
+TEST(Compare, WithinATolerance_DoesNotMergeVertices) {
+    const Mesh mesh = test::kuhn(1, 1, 1);
+    Mesh other = mesh;
+    other.points[VertexIndex{0}] = other.points[VertexIndex{1}];
+    EXPECT_EQ(compare_within(10, mesh, other).likeness, Likeness::different);
+    EXPECT_EQ(compare_within(10, other, mesh).likeness, Likeness::different);
+}
+
+TEST(Compare, WithinATolerance_ComparesTagsAndAttributesExactly) {
+    const Mesh mesh = tagged();
+    Mesh other = shaken(mesh, 1e-9);
+    other.facet_markers.back() += 1;
+    const Comparison found = compare_within(1e-8, mesh, other);
+    ASSERT_EQ(found.differences.size(), 1U);
+    EXPECT_EQ(found.differences.front().kind, "facet");
+}
+
 TEST(Compare, DistinguishesACrackFromAFace) {
     const std::vector<Point> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
                                     {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};

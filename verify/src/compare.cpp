@@ -13,6 +13,8 @@
 
 #include <octetra/core/standard_arithmetic.hpp>
 
+#include "snap_vertices.hpp"
+
 namespace octetra::verify {
 namespace {
 
@@ -292,6 +294,14 @@ Comparison compare(const Mesh& a, const Mesh& b, std::size_t kept) {
                      items_of(b.edges, b.edge_markers, b, of_b), "edge", "marker");
     result.likeness =
         result.difference_count == 0 ? Likeness::up_to_numbering : Likeness::different;
+    return result;
+}
+
+Comparison compare_within(double tolerance, const Mesh& a, Mesh b, std::size_t kept) {
+    const StandardArithmetic standard;
+    const double greatest = snap_vertices(b, a, tolerance);
+    Comparison result = compare(a, b, kept);
+    result.greatest_distance = greatest;
     return result;
 }
 

@@ -1,5 +1,8 @@
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -8,6 +11,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
+#include "commands/number_options.hpp"
 #include "negative_answer.hpp"
 #include "verdict/print_verdict.hpp"
 
@@ -18,11 +22,15 @@ struct CompareOptions {
     std::string a;
     std::string b;
     bool identical = false;
+    std::optional<double> tolerance;
 };
 
 bool run(const CompareOptions& options) {
-    const auto comparison =
-        verify::compare(read_without_checks(options.a), read_without_checks(options.b));
+    const Mesh a = read_without_checks(options.a);
+    Mesh b = read_without_checks(options.b);
+    const auto comparison = options.tolerance
+                                ? verify::compare_within(*options.tolerance, a, std::move(b))
+                                : verify::compare(a, b);
     print_comparison(comparison, options.a, options.b);
     return comparison.likeness == verify::Likeness::identical ||
            (!options.identical && comparison.likeness == verify::Likeness::up_to_numbering);
@@ -44,12 +52,19 @@ void add_compare(CLI::App& program, const distributed::Communicator& world) {
         ->type_name("")
         ->check(file_name_validator())
         ->required();
-    command->add_flag("--identical", options->identical, "also require the same numbering");
+    CLI::Option* identical =
+        command->add_flag("--identical", options->identical, "also require the same numbering");
+    add_number<double>(*command, "--tolerance", options->tolerance,
+                       {0, std::numeric_limits<double>::max(), "0 up"},
+                       "take vertices at most T apart for the same vertex [0]")
+        ->type_name("T")
+        ->excludes(identical);
     command->footer(
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra convert gear.1.ele gear.mesh\n"
-        "  octetra compare gear.1.ele gear.mesh");
+        "  octetra compare gear.1.ele gear.mesh\n"
+        "  octetra compare gear.1.ele gear.mesh --tolerance 1e-12");
     command->callback([options, world] {
         std::vector<char> same{0};
         world.on_first([&] { same.front() = run(*options) ? 1 : 0; });

@@ -1,4 +1,5 @@
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/output_paths.hpp>
+#include <octetra/core/unused_vertices.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 
@@ -18,6 +20,7 @@
 #include "commands/commands.hpp"
 #include "commands/distinct_files.hpp"
 #include "commands/mesh_options.hpp"
+#include "grouped.hpp"
 
 namespace octetra::cli {
 namespace {
@@ -26,6 +29,7 @@ struct ConvertOptions {
     InputOptions input;
     std::string output;
     std::string msh_format;  // empty: the default of write_mesh()
+    bool drop_unused = false;
     bool quiet = false;
 };
 
@@ -65,8 +69,33 @@ void convert_with_fields(const ConvertOptions& options, const WriteOptions& writ
     if (!options.quiet) report_written(mesh.collect(), options.output);
 }
 
+/// Throws InputError if --drop-unused is given for data that refer to the numbers of vertices.
+void check_drop_unused(const ConvertOptions& options) {
+    if (!options.drop_unused) return;
+    if (is_checkpoint(options.input.path)) {
+        throw InputError(
+            fmt::format("--drop-unused: the history in {} numbers all vertices; drop "
+                        "them from the input, before refinement",
+                        options.input.path));
+    }
+    if (!options.input.fields.empty()) {
+        throw InputError(
+            "--drop-unused cannot be combined with --fields, which has a value for "
+            "each vertex of MESH");
+    }
+}
+
+void drop_unused(Mesh& mesh, const std::string& path) {
+    const std::uint64_t dropped = drop_unused_vertices(mesh);
+    if (dropped > 0) {
+        note(fmt::format("dropped {} vert{} of no cell of {}", grouped(dropped),
+                         dropped == 1 ? "ex" : "ices", path));
+    }
+}
+
 void convert(const ConvertOptions& options) {
     const WriteOptions writing = write_options(options);
+    check_drop_unused(options);
     check_output_with_fields(options.input, options.output);
     check_distinct_files(
         {mesh_named("MESH", options.input.path), file_named("--fields", options.input.fields)},
@@ -74,7 +103,8 @@ void convert(const ConvertOptions& options) {
     if (is_checkpoint(options.input.path) || !options.input.fields.empty()) {
         return convert_with_fields(options, writing);
     }
-    const Mesh mesh = read_input(options.input);
+    Mesh mesh = read_input(options.input);
+    if (options.drop_unused) drop_unused(mesh, options.input.path);
     write_output(mesh, options.output, writing);
     if (!options.quiet) report_written(mesh, options.output);
 }
@@ -98,6 +128,8 @@ void add_convert(CLI::App& program, const distributed::Communicator& world) {
         ->add_option("--msh-format", options->msh_format,
                      "the version of .msh: 4.1 or 2.2, binary; 4.1-text or 2.2-text [4.1]")
         ->type_name("WORD");
+    command->add_flag("--drop-unused", options->drop_unused,
+                      "drop vertices of no cell, and renumber the others in their order");
     command->add_flag("--quiet", options->quiet, "print only notes and errors");
     command->footer(
         "Example:\n"

@@ -147,6 +147,11 @@ void print_comparison(const verify::Comparison& comparison, const std::string& a
     }
     const std::uint64_t more = comparison.difference_count - comparison.differences.size();
     if (more > 0) print("and {} more differences\n", grouped(more));
+    if (comparison.greatest_distance > 0 && comparison.difference_count == 0) {
+        print("{}, {}: the same within the tolerance: vertices are up to {:.3g} apart\n", a, b,
+              comparison.greatest_distance);
+        return;
+    }
     constexpr std::array<std::string_view, 3> answers{"identical", "the same up to numbering",
                                                       "different"};
     std::vector<std::string_view> reasons;

@@ -31,6 +31,8 @@ struct Comparison {
     bool index_base_differs = false;     ///< the first number in files
     bool signs_of_zeros_differ = false;  ///< of coordinates or attributes
     bool zero_tags_differ = false;       ///< one has a list of tags that are all 0, the other none
+    /// The greatest distance between vertices that the tolerance has made equal.
+    double greatest_distance = 0;
     std::uint64_t difference_count = 0;
     std::vector<Difference> differences;  ///< the first ones of each kind, by coordinates
 };
@@ -41,5 +43,10 @@ struct Comparison {
 /// cell's corners matters only up to even permutations. All differences are counted; up to `kept`
 /// of each kind are described.
 [[nodiscard]] Comparison compare(const Mesh& a, const Mesh& b, std::size_t kept = 10);
+
+/// The same after each vertex of `b` has been moved to the nearest vertex of `a`, if their distance
+/// is at most `tolerance` (finite, 0 or more). Attributes are compared without a tolerance.
+[[nodiscard]] Comparison compare_within(double tolerance, const Mesh& a, Mesh b,
+                                        std::size_t kept = 10);
 
 }  // namespace octetra::verify

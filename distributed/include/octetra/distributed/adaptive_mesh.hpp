@@ -25,6 +25,7 @@
 #include <octetra/distributed/field.hpp>
 #include <octetra/distributed/ghosts.hpp>
 #include <octetra/distributed/index_map.hpp>
+#include <octetra/distributed/levels.hpp>
 #include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/migration.hpp>
 #include <octetra/distributed/out_of_memory.hpp>
@@ -298,6 +299,13 @@ public:
     /// Collective. Returns a layer of ghosts around this process's cells. Throws InputError if
     /// processes pass different values of `by`.
     [[nodiscard]] GhostLayer ghosts(GhostsBy by) const;
+
+    /// Collective. Returns nested meshes, from the input to this mesh, with the transfer of values
+    /// between them: a hierarchy for a multigrid solver. It is a copy, which remains valid when
+    /// this mesh changes, and takes the memory of the mesh's points and lists once. With
+    /// has_forgotten_history(), the coarsest level is the mesh at the time when its cells became
+    /// roots. Throws InputError on all processes for invalid or differing options.
+    [[nodiscard]] Levels levels(const LevelOptions& options = {}) const;
 
     /// Collective. Reads the fields of a Medit solution file, `.sol` or `.solb`, with values of
     /// this mesh's vertices and cells in the order of its files; they are named sol_1, sol_2 ... on

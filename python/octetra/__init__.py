@@ -19,6 +19,7 @@ from ._octetra import (
     Ghosts as Ghosts,
     IndexMap as IndexMap,
     InputError as InputError,
+    Level as Level,
     Mesh as Mesh,
     MeshSeries as MeshSeries,
     Migration as Migration,

@@ -18,6 +18,7 @@ void bind_from_arrays(py::module_& module);
 void bind_steps(py::module_& module, MeshClass& mesh);
 void bind_adaptation(py::module_& module, MeshClass& mesh);
 void bind_migration(py::module_& module);
+void bind_levels(py::module_& module, MeshClass& mesh);
 void bind_marks(py::module_& module);
 void bind_sharing(py::module_& module, MeshClass& mesh);
 void bind_sides(py::module_& module, MeshClass& mesh);

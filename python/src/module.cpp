@@ -120,6 +120,7 @@ PYBIND11_MODULE(_octetra, module) {
     bind_series(module, mesh);
     bind_verify(module, mesh);
     bind_certificate(module, mesh);
+    bind_levels(module, mesh);
     refuse_objects_without_value(module);
 }
 

@@ -75,6 +75,9 @@ CASES = {
     "face_neighbours() takes 0 positional arguments but 1 was given": lambda m: Call()(
         m.face_neighbours, 1),
     "cell_index_map() takes 0 positional arguments but 1 was given": lambda m: Call()(m.cell_index_map, 1),
+    "levels() takes from 0 to 1 positional arguments but 2 were given": lambda m: Call()(m.levels, 2.0, 3),
+    "growth must be a number, not 'a'": lambda m: Call()(m.levels, "a"),
+    "prolongation() takes 0 positional arguments but 1 was given": lambda m: Call()(m.levels()[0].prolongation, 1),
     "index_map() takes 0 positional arguments but 1 was given": lambda m: Call()(
         m.vertex_sharing.index_map, 1),
     "statistics() takes 1 positional argument but 2 were given": lambda m: Call(m)(

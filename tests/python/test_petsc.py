@@ -119,6 +119,16 @@ def test_the_solver_prints_the_output_of_the_page(cube, monkeypatch, capsys):
     assert capsys.readouterr().out.splitlines() == (table[:4] if world.rank == 0 else [])
 
 
+def test_multigrid_on_the_levels_takes_few_iterations_at_every_size(cube, monkeypatch, capsys):
+    monkeypatch.syspath_prepend(pathlib.Path(__file__).resolve().parents[2] / "examples/python")
+    importlib.import_module("multigrid_poisson").run(cube, 5)
+    world.Barrier()
+    rows = [[int(word) for word in row.split()] for row in capsys.readouterr().out.splitlines()[1:]]
+    assert len(rows) == (6 if world.rank == 0 else 0)
+    for _, vertices, levels, iterations in rows[1:]:
+        assert levels >= 2 and 3 <= iterations <= 20
+
+
 def test_other_plexes_than_of_tetrahedra_are_refused():
     with pytest.raises(TypeError):
         from_plex(3)

@@ -1,17 +1,18 @@
-"""Conversions between meshes and DMPlex, the unstructured meshes of PETSc, with petsc4py.
+"""Conversions between meshes and DMPlex, the unstructured meshes of PETSc, and matrices between levels, with petsc4py.
 
     from octetra.petsc import from_plex, points_of, to_plex
 
     plex = to_plex(mesh)            # a petsc4py.PETSc.DMPlex with the distribution of the mesh
     back = from_plex(plex).mesh
+    matrices = interpolations(mesh.levels())  # for PETSc's multigrid, PCMG
 """
 
-from typing import Any, NamedTuple, Optional
+from typing import Any, List, NamedTuple, Optional, Sequence
 
 from numpy.typing import NDArray
 from petsc4py import PETSc  # type: ignore[import]  # initialises PETSc
 
-from . import Mesh, _petsc
+from . import Level, Mesh, _petsc
 
 
 class Points(NamedTuple):
@@ -64,3 +65,19 @@ def from_plex(plex: Any, *, cells: str = "Cell Sets", faces: str = "Face Sets",
     if not isinstance(plex, PETSc.DM):  # type: ignore[attr-defined]
         raise TypeError("plex must be a DM of petsc4py")
     return FromPlex(*_petsc.from_plex(plex, cells, faces, edges))
+
+
+def interpolations(levels: Sequence[Level], comm: Optional[Any] = None) -> List[Any]:
+    """Collective. Returns for each level but the last the petsc4py.PETSc.Mat that interpolates P1 values to the next
+    level. Rows and columns are those of vectors in the order of the levels' vertex_sharing.index_map().
+
+    comm: an mpi4py communicator with the mesh's ranks in the same order; None means all ranks.
+    """
+    owned = [level.vertex_sharing.index_map().owned_count for level in levels]
+    matrices = []
+    for k, level in enumerate(levels[:-1]):
+        begin, columns, values = level.prolongation()
+        rows = (begin.astype(PETSc.IntType), columns.astype(PETSc.IntType), values)  # type: ignore[attr-defined]
+        sizes = ((owned[k + 1], None), (owned[k], None))
+        matrices.append(PETSc.Mat().createAIJ(sizes, csr=rows, comm=comm))  # type: ignore[attr-defined]
+    return matrices

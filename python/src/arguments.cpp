@@ -76,6 +76,14 @@ std::filesystem::path path_from(const char* name, const py::handle& given) {
     return py::detail::cast_op<std::filesystem::path&&>(std::move(caster));
 }
 
+Closure closure_from(const char* name, const py::handle& given) {
+    const std::string closure = string_from(name, given);
+    if (closure == "regular") return Closure::regular;
+    if (closure == "longest-edge") return Closure::longest_edge;
+    throw InputError(
+        fmt::format("{} must be 'longest-edge' or 'regular', not '{}'", name, closure));
+}
+
 template <class T>
 T integer_from(const char* name, const py::handle& given, const char* or_else) {
     using Limits = std::numeric_limits<T>;

@@ -9,6 +9,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <octetra/core/closure.hpp>
+
 /// Arguments that Python passes: bound to the parameters of a function, and converted. A collective
 /// function does both in the section in which ranks agree on failures, because an argument that
 /// one rank alone refuses beforehand would leave the other ranks waiting.
@@ -65,6 +67,7 @@ private:
 [[nodiscard]] double number_from(const char* name, const py::handle& given);
 [[nodiscard]] bool boolean_from(const char* name, const py::handle& given);
 [[nodiscard]] std::filesystem::path path_from(const char* name, const py::handle& given);
+[[nodiscard]] Closure closure_from(const char* name, const py::handle& given);
 
 /// An integer that fits into T: std::int32_t, std::uint32_t, std::int64_t or std::uint64_t.
 /// `or_else` continues the message where other types are accepted as well.

@@ -26,17 +26,10 @@ Marks marked(const Mesh& mesh, const py::object& marks, const py::object& cells)
     return marks_of_list(cells, mesh.cell_count());
 }
 
-Closure closure_of(const py::object& given) {
-    const std::string closure = string_from("closure", given);
-    if (closure == "regular") return Closure::regular;
-    if (closure == "longest-edge") return Closure::longest_edge;
-    throw InputError(fmt::format("closure must be 'longest-edge' or 'regular', not '{}'", closure));
-}
-
 od::StepOptions step_options(const py::object& given, const py::object& closure,
                              const py::object& max_cells) {
     od::StepOptions options;
-    options.closure = closure_of(closure);
+    options.closure = closure_from("closure", closure);
     const std::string scheme = string_from("scheme", given);
     if (scheme == "4t") {
         options.scheme = Scheme::four;

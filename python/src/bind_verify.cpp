@@ -31,10 +31,14 @@ ov::Verdict judge(Mesh& mesh, const Arguments& arguments) {
     ov::VerifyOptions options;
     // The path is empty for None, which all ranks pass or none.
     const std::filesystem::path input = common_path(mesh.processes(), [&] {
-        const auto [coarse, fast, min_dihedral] = arguments.values<3>();
+        const auto [coarse, fast, min_dihedral, closure] = arguments.values<4>();
         options.fast = boolean_from("fast", fast);
         options.min_dihedral = angle_from("min_dihedral", min_dihedral);
-        if (coarse.is_none()) return std::filesystem::path();
+        options.closure = closure_from("closure", closure);
+        if (coarse.is_none()) {
+            if (options.closure == Closure::longest_edge) return std::filesystem::path();
+            throw InputError("closure='regular' requires coarse, the mesh that was refined");
+        }
         const std::filesystem::path path = path_from("coarse", coarse);
         if (path.empty()) throw InputError("coarse: the path is empty");
         return path;
@@ -87,12 +91,14 @@ void bind_verify(py::module_& module, MeshClass& mesh) {
                        ? std::string("<octetra.Verdict: valid>")
                        : "<octetra.Verdict: " + py::str(counts(verdict)).cast<std::string>() + ">";
         });
-    def_method(mesh, "verify", "coarse=None, *, fast=False, min_dihedral=None", &judge,
+    def_method(mesh, "verify", "coarse=None, *, fast=False, min_dihedral=None, closure='longest-edge'",
+               &judge,
                "Collective. Verifies the mesh, and returns a Verdict.\n\n"
                "coarse: the path of a mesh file; the mesh is then also verified as a refinement of "
                "that mesh by midpoints. fast: skips the checks that search in space. min_dihedral: "
-               "the least dihedral angle that is accepted, in degrees. The arguments must be the "
-               "same on all ranks.");
+               "the least dihedral angle that is accepted, in degrees. closure: 'regular' also checks "
+               "that the mesh results from refinement of coarse with the regular closure. The "
+               "arguments must be the same on all ranks.");
 }
 
 }  // namespace octetra::python

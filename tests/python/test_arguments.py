@@ -121,6 +121,10 @@ CASES = {
     "coarse must be a string or an os.PathLike, not 3": lambda m: Call()(m.verify, 3),
     "fast must be True or False, not 'x'": lambda m: Call()(m.verify, fast="x"),
     "min_dihedral must be a number, not 'x'": lambda m: Call()(m.verify, min_dihedral="x"),
+    "closure must be 'longest-edge' or 'regular', not 'even'": lambda m: Call()(
+        m.verify, closure="even"),
+    "closure='regular' requires coarse, the mesh that was refined": lambda m: Call()(
+        m.verify, closure="regular"),
 }
 
 

@@ -163,12 +163,15 @@ DIFFERENT = {
     "another balance": lambda m: m.rebalance(most_over_mean=wrong_here(1.5, 1.1)),
     "another angle": lambda m: m.verify(min_dihedral=wrong_here(1.0, None)),
     "another speed": lambda m: m.verify(fast=wrong_here(True, False)),
+    "another closure": lambda m: m.verify(
+        "cube.mesh", closure=wrong_here("regular", "longest-edge")),
 }
 
 
 @pytest.mark.skipif(world.size == 1, reason="there is no other rank")
 @pytest.mark.parametrize("case", DIFFERENT)
-def test_an_argument_that_differs_on_one_rank_is_refused_alike_on_all(mesh, case):
+def test_an_argument_that_differs_on_one_rank_is_refused_alike_on_all(mesh, cube, case, monkeypatch):
+    monkeypatch.chdir(cube.parent)
     with pytest.raises(octetra.InputError, match=f"^rank {world.size - 1}: the .* on rank 0") as raised:
         DIFFERENT[case](mesh)
     said = world.allgather(str(raised.value))

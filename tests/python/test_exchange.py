@@ -226,3 +226,16 @@ def test_the_verifier_judges_the_mesh_alone_and_as_a_refinement(folder, cube, fi
     other = folder / "other.mesh"
     command("generate", "kuhn", "3", "-o", other)
     assert not fine.verify(other)
+
+
+def test_the_verifier_tells_the_regular_closure_from_the_other(cube):
+    verdicts = {}
+    for closure in ("regular", "longest-edge"):
+        mesh = octetra.read(cube)
+        for seed in range(3):
+            mesh.refine(octetra.mark.random(mesh, 0.1, seed), closure=closure)
+        assert mesh.verify(cube)
+        verdicts[closure] = mesh.verify(cube, closure="regular")
+    assert verdicts["regular"].checks["regular closure"] == "passed" and verdicts["regular"]
+    assert verdicts["longest-edge"].checks["regular closure"] == "failed"
+    assert verdicts["longest-edge"].counts["bisected_transition_cell"] > 0

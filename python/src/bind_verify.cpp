@@ -91,14 +91,15 @@ void bind_verify(py::module_& module, MeshClass& mesh) {
                        ? std::string("<octetra.Verdict: valid>")
                        : "<octetra.Verdict: " + py::str(counts(verdict)).cast<std::string>() + ">";
         });
-    def_method(mesh, "verify", "coarse=None, *, fast=False, min_dihedral=None, closure='longest-edge'",
-               &judge,
-               "Collective. Verifies the mesh, and returns a Verdict.\n\n"
-               "coarse: the path of a mesh file; the mesh is then also verified as a refinement of "
-               "that mesh by midpoints. fast: skips the checks that search in space. min_dihedral: "
-               "the least dihedral angle that is accepted, in degrees. closure: 'regular' also checks "
-               "that the mesh results from refinement of coarse with the regular closure. The "
-               "arguments must be the same on all ranks.");
+    def_method(
+        mesh, "verify", "coarse=None, *, fast=False, min_dihedral=None, closure='longest-edge'",
+        &judge,
+        "Collective. Verifies the mesh, and returns a Verdict.\n\n"
+        "coarse: the path of a mesh file; the mesh is then also verified as a refinement of "
+        "that mesh by midpoints. fast: skips the checks that search in space. min_dihedral: "
+        "the least dihedral angle that is accepted, in degrees. closure: 'regular' also checks "
+        "that the mesh results from refinement of coarse with the regular closure. The "
+        "arguments must be the same on all ranks.");
 }
 
 }  // namespace octetra::python

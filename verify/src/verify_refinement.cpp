@@ -15,6 +15,7 @@
 #include "mesh/checks.hpp"
 #include "parts/mesh_part.hpp"
 #include "refinement/checks.hpp"
+#include "request/replays.hpp"
 #include "same_options.hpp"
 
 namespace octetra::verify {
@@ -104,9 +105,8 @@ bool has_coincident_vertices(const JudgedMesh& judged) {
 
 void check_request_of_closure(const VerifyOptions& options) {
     if (options.closure == Closure::longest_edge || !options.request) return;
-    throw InputError(
-        "the regular closure is verified for any marks; a request requires the longest-edge "
-        "closure");
+    if (options.request->scheme == Scheme::eight) return;
+    throw InputError("the regular closure requires a request with the scheme 8t");
 }
 
 std::string_view name_of_range_check(Which which) {
@@ -233,16 +233,24 @@ private:
                 return check_maps(*options_.maps, coarse_, fine_, descent, findings_);
             });
         }
-        if (options_.closure == Closure::regular) {
-            findings_.run("regular closure", [&] {
-                return check_regular_closure(coarse_, fine_, lines, descent, findings_);
-            });
+        judge_closure(descent, lines);
+    }
+
+    void judge_closure(const Descent& descent, Lines& lines) {
+        const bool is_regular = options_.closure == Closure::regular;
+        const bool is_closed = !is_regular || findings_.run("regular closure", [&] {
+            return check_regular_closure(coarse_, fine_, lines, descent, findings_);
+        });
+        if (!options_.request) return;
+        if (!is_closed) {
+            findings_.skip("8T-LE", "regular closure failed");
+            return;
         }
-        if (options_.request) {
-            findings_.run("8T-LE", [&] {
-                return check_request(*options_.request, coarse_, fine_, lines, descent, findings_);
-            });
-        }
+        findings_.run("8T-LE", [&] {
+            const RequestedRefinement asked(*options_.request, coarse_, fine_, lines, descent,
+                                            findings_);
+            return is_regular ? replay_regular_closure(asked) : replay_longest_edge_closure(asked);
+        });
     }
 
     void skip_from(std::size_t first, std::string_view why) {

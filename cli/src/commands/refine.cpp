@@ -119,11 +119,11 @@ void report_refined(const Run& run, const RefineStep& step, int levels, int rank
 /// Collective. Returns whether the result of the step is valid, and reports it.
 bool is_valid(const Run& run, const RefineStep& step, verify::MeshSlice coarse, MeshSource& fine,
               bool has_maps) {
-    Judgement judgement{
-        .closure = step.closure, .maps = has_maps ? &fine : nullptr, .is_only_output = true};
-    if (step.closure == Closure::longest_edge) {
-        judgement.request = {step.selection, step.scheme, step.typed.levels};
-    }
+    const Judgement judgement{
+        .request = verify::Request{step.selection, step.scheme, step.typed.levels},
+        .closure = step.closure,
+        .maps = has_maps ? &fine : nullptr,
+        .is_only_output = true};
     if (!is_valid_refinement(run, std::move(coarse), verify::slice_of(fine), judgement)) {
         return false;
     }
@@ -256,9 +256,11 @@ void refine_with_history(const Plan& plan, const Script& one_step, AdaptationOpt
             "it; the default engine makes the same mesh",
             has_fields ? "fields" : "history", has_fields ? "--fields" : ".octetra files"));
     }
-    // With the regular closure, the cells of OUT need not be pieces of those of MESH.
-    const bool is_regular = plan.step.closure == Closure::regular;
-    options.claim = is_regular ? Claim::refines_input : Claim::refines_mesh;
+    // With the regular closure, the cells of OUT need not be pieces of those of a mesh with
+    // history.
+    const bool replaces_cells =
+        plan.step.closure == Closure::regular && is_checkpoint(options.input.path);
+    options.claim = replaces_cells ? Claim::refines_input : Claim::refines_mesh;
     adapt(options, one_step, world);
 }
 

@@ -91,9 +91,11 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
         if (given.second.empty()) {
             throw InputError("verify: --closure regular requires COARSE and REFINED");
         }
-        if (options.request) {
-            throw InputError(
-                "verify: --closure regular is checked for any marked cells: omit the selection");
+        if (options.request && is_checkpoint(given.first)) {
+            throw InputError(fmt::format(
+                "verify: with --closure regular, a selection can be checked only if COARSE has no "
+                "history, unlike {}: refinement replaces its transition cells",
+                given.first));
         }
     }
     if (given.second.empty() && options.request) {
@@ -195,8 +197,7 @@ bool run(const VerifyCommandOptions& given, const distributed::Communicator& wor
              file_named("--cells", given.refinement.selection.cells_file)},
             {file_named("--report", given.report)});
     });
-    const bool has_no_request = given.before.empty() && !given.second.empty() && !options.request &&
-                                options.closure == Closure::longest_edge;
+    const bool has_no_request = given.before.empty() && !given.second.empty() && !options.request;
     CheckProgress progress;
     if (world.is_first()) options.progress = progress.progress_callback();
     JudgedFiles judged;
@@ -263,8 +264,8 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
                            "--coarsened-from, their coarsening");
     add_closure_option(
         *command, options->refinement,
-        "regular: check that REFINED results from the regular closure, whatever cells "
-        "were\nmarked [longest-edge]");
+        "regular: check that REFINED results from the regular closure of the selection or,\n"
+        "without one, of some cells [longest-edge]");
     command->footer(
         "Exit status: 0 valid; 1 not valid; 2 bad usage, or a file that cannot be read;\n"
         "3 the system failed: memory, disk; 128 + its number: a signal ended a rank, for example\n"
@@ -275,7 +276,7 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         "  octetra verify fine.1.ele\n"
         "  octetra verify gear.1.ele fine.1.ele --sphere 1,0,0.1,0.3 --levels 2\n"
         "  octetra refine gear.1.ele --random 0.1 --closure regular -o regular.1.ele\n"
-        "  octetra verify gear.1.ele regular.1.ele --closure regular\n"
+        "  octetra verify gear.1.ele regular.1.ele --random 0.1 --closure regular\n"
         "  octetra refine gear.1.ele --all -o fine.octetra\n"
         "  octetra coarsen fine.octetra --sphere 1,0,0.1,0.3 -o coarser.octetra\n"
         "  octetra verify coarser.octetra --coarsened-from fine.octetra --sphere 1,0,0.1,0.3\n"

@@ -8,6 +8,7 @@
 #include <octetra/core/mesh.hpp>
 
 #include "mesh/judged_mesh.hpp"
+#include "refinement/bisected_edges.hpp"
 #include "refinement/lines.hpp"
 
 namespace octetra::verify {
@@ -23,12 +24,6 @@ struct Piece {
 struct Leaf {
     CellIndex cell;
     Piece piece;
-};
-
-/// A vertex inserted between two others.
-struct Split {
-    EdgeVertices edge;
-    VertexIndex midpoint;
 };
 
 /// Divides coarse cells, one at a time.

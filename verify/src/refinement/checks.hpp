@@ -33,10 +33,6 @@ void check_tags(const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines,
 std::string check_maps(const RefinementMaps& maps, const JudgedMesh& coarse, const JudgedMesh& fine,
                        const Descent& descent, Findings& findings);
 
-/// Checks that the fine mesh is the result of the request.
-std::string check_request(const Request& request, const JudgedMesh& coarse, const JudgedMesh& fine,
-                          Lines& lines, const Descent& descent, Findings& findings);
-
 /// Checks that the fine mesh is the result of regular refinement of some cells: every coarse cell
 /// consists of regular cells and of whole children of regular cells with one to five bisected
 /// edges, and the longest edge of each face of a regular cell with a bisected edge is bisected.

@@ -25,6 +25,11 @@ public:
         return is_whole(a, b) || !midpoint(a, b).is_none();
     }
 
+    /// Returns whether the fine mesh has halves of an edge instead of the edge.
+    [[nodiscard]] bool is_bisected(const EdgeVertices& edge) {
+        return !is_whole(edge[0], edge[1]) && !midpoint(edge[0], edge[1]).is_none();
+    }
+
     /// Returns whether midpoint() has returned this vertex for any two others.
     [[nodiscard]] bool halves_a_line(VertexIndex v) const { return halves_[v.value()] != 0; }
 

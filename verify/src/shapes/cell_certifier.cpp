@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mesh/face_edges.hpp"
 #include "shapes/extremes.hpp"
 #include "shapes/patterns.hpp"
 

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <optional>
 
+#include "mesh/face_edges.hpp"
+
 namespace octetra::verify::shapes {
 namespace {
 

@@ -83,10 +83,6 @@ using LongestFirst = std::array<std::uint8_t, 6>;
 using FaceKey = std::uint8_t;
 inline constexpr std::size_t face_key_count = 81;
 
-/// The edges of each face, ascending.
-inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_edges{
-    {{3, 4, 5}, {1, 2, 5}, {0, 2, 4}, {0, 1, 3}}};
-
 [[nodiscard]] FaceKey face_key(const LongestFirst& order);
 
 struct Pattern {

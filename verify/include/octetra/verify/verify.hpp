@@ -20,7 +20,8 @@
 /// Functions without a group argument are local to the process.
 namespace octetra::verify {
 
-/// The refinement requested, if the fine mesh claims to be the 8T-LE refinement of the coarse one.
+/// The refinement requested, if the fine mesh claims to be the 8T-LE refinement of the coarse one,
+/// with the closure of VerifyOptions.
 struct Request {
     Selection selection;
     Scheme scheme = Scheme::eight;
@@ -37,7 +38,7 @@ struct VerifyOptions {
     std::optional<double> min_dihedral;
     std::optional<Request> request;
     /// Closure::regular: the fine mesh must be the result of regular refinement, whatever cells
-    /// were marked; a request, which is one of Closure::longest_edge, is refused then.
+    /// were marked if there is no request. The scheme of a request must be Scheme::eight then.
     Closure closure = Closure::longest_edge;
     const RefinementMaps* maps = nullptr;  ///< checked if not null; of the fine mesh
     /// The reason why a fine mesh has no attributes (its file format, for example). If empty,

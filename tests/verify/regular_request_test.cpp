@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -173,6 +177,64 @@ TEST(RegularRequest, HasTheSchemeOfEightOnly) {
     const Mesh mesh = test::kuhn(1, 1, 1);
     const Request request{.selection = {.all = true}, .scheme = Scheme::four};
     EXPECT_THROW((void)verify_refinement(mesh, mesh, regular(request)), InputError);
+}
+
+/// The number of cells with a dihedral angle outside these bounds, in degrees, by more than
+/// rounding.
+std::uint64_t cells_outside(const Mesh& mesh, double least, double greatest) {
+    const auto normal = [&](VertexIndex a, VertexIndex b, VertexIndex c) {
+        const auto& p = mesh.points;
+        const Point u{p[b].x - p[a].x, p[b].y - p[a].y, p[b].z - p[a].z};
+        const Point v{p[c].x - p[a].x, p[c].y - p[a].y, p[c].z - p[a].z};
+        return Point{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+    };
+    const auto dot = [](const Point& u, const Point& v) {
+        return u.x * v.x + u.y * v.y + u.z * v.z;
+    };
+    return static_cast<std::uint64_t>(
+        std::ranges::count_if(mesh.cells, [&](const CellVertices& cell) {
+            for (std::size_t k = 0; k < 6; ++k) {
+                const auto [i, j] = cell_edges[k];
+                const auto [m, n] = cell_edges[5 - k];
+                const Point u = normal(cell[i], cell[j], cell[m]);
+                const Point v = normal(cell[i], cell[j], cell[n]);
+                const double cosine = dot(u, v) / std::sqrt(dot(u, u) * dot(v, v));
+                const double angle = std::acos(cosine) * 180 / std::numbers::pi;
+                if (angle < least - 1e-6 || angle > greatest + 1e-6) return true;
+            }
+            return false;
+        }));
+}
+
+TEST(CertifiedShapes, BoundTheAnglesOfEachRegularlyRefinedCell) {
+    const Selection some{.random = RandomShare{0.1, 1}};
+    const auto note_of = [&](const Mesh& coarse) {
+        const Mesh fine = reference::refine_regularly(coarse, some, 3).mesh;
+        const Verdict verdict =
+            test::verified_by_all(coarse, fine, {.closure = Closure::regular}, {3});
+        EXPECT_EQ(codes_of(verdict), "");
+        const Check check = check_named(verdict, "certified shapes");
+        EXPECT_EQ(check.status, Status::passed);
+        return check.note;
+    };
+    for (const Mesh& coarse : coarse_meshes()) {
+        EXPECT_EQ(note_of(coarse), "dihedral angles, exactly");
+    }
+    // Far from the origin, rounding of midpoints changes the angles by more than that of bounds.
+    Mesh far = test::kuhn(2, 1, 1, 0.5);
+    for (Point& p : far.points) p = {p.x / 3 + 1e6, p.y / 3 + 1e6, p.z / 3 + 1e6};
+    EXPECT_NE(note_of(far).find("only up to the rounding of midpoints"), std::string::npos);
+}
+
+TEST(CertifiedShapes, AreExceededByLongestEdgeRefinement) {
+    const Mesh coarse = test::kuhn(2, 1, 1);
+    const Mesh fine =
+        reference::refine(coarse, {.random = RandomShare{0.2, 1}}, Scheme::eight, 3).mesh;
+    const Verdict verdict = test::verified_by_all(coarse, fine, {.closure = Closure::regular}, {3});
+    const std::uint64_t outside = cells_outside(fine, 45, 120);  // the bounds of Kuhn's cell
+    EXPECT_GT(outside, 0U);
+    EXPECT_EQ(verdict.count(Code::dihedral_beyond_certificate), outside);
+    EXPECT_EQ(check_named(verdict, "certified shapes").status, Status::failed);
 }
 
 }  // namespace

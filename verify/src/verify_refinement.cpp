@@ -238,6 +238,13 @@ private:
 
     void judge_closure(const Descent& descent, Lines& lines) {
         const bool is_regular = options_.closure == Closure::regular;
+        if (is_regular && options_.fast) {
+            findings_.skip("certified shapes", not_fast);
+        } else if (is_regular) {
+            findings_.run("certified shapes", [&] {
+                return check_certified_shapes(coarse_, fine_, descent, findings_);
+            });
+        }
         const bool is_closed = !is_regular || findings_.run("regular closure", [&] {
             return check_regular_closure(coarse_, fine_, lines, descent, findings_);
         });
@@ -258,7 +265,10 @@ private:
             "descent", "vertices", "cover", "volumes of cells", "face angles", "sums by tag"};
         for (std::size_t i = first; i < names.size(); ++i) findings_.skip(names[i], why);
         if (options_.maps != nullptr) findings_.skip("maps", why);
-        if (options_.closure == Closure::regular) findings_.skip("regular closure", why);
+        if (options_.closure == Closure::regular) {
+            findings_.skip("certified shapes", why);
+            findings_.skip("regular closure", why);
+        }
         if (options_.request) findings_.skip("8T-LE", why);
     }
 

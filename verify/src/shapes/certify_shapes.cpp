@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 #include <string>
-#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include "parts/exchange.hpp"
 #include "parts/fetch_vertices.hpp"
 #include "shapes/cell_certifier.hpp"
+#include "shapes/certificates.hpp"
 #include "shapes/root_shape.hpp"
 
 namespace octetra::verify {
@@ -141,27 +141,9 @@ struct Summary {
     }
 };
 
-/// The certificates of cells; those of equal shape are computed once.
-class Certificates {
-public:
-    explicit Certificates(std::size_t limit) : certifier_(limit) {}
-
-    const CellCertificate& of(const Corners& corners) {
-        const shapes::RootShape root = shapes::root_shape(corners);
-        const auto [found, is_new] = numbers_.try_emplace(shapes::bytes_of(root), list_.size());
-        if (is_new) list_.push_back(certifier_.certify(root));
-        return list_[found->second];
-    }
-
-private:
-    CellCertifier certifier_;
-    std::unordered_map<std::string, std::size_t> numbers_;
-    std::vector<CellCertificate> list_;
-};
-
 Summary certify_share(const CertifiedShare& share, const CertifyOptions& options,
                       std::vector<CertifiedCell>& worst) {
-    Certificates certificates(options.limit);
+    shapes::Certificates certificates(options.limit);
     Summary summary;
     constexpr std::uint32_t cells_per_report = 64;
     const std::size_t kept = 2 * options.worst + 1000;

@@ -14,6 +14,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/reference/history.hpp>
 #include <octetra/reference/refine.hpp>
+#include <octetra/verify/certify_shapes.hpp>
 #include <octetra/verify/verify.hpp>
 
 #include "support/meshes.hpp"
@@ -179,9 +180,8 @@ TEST(RegularRequest, HasTheSchemeOfEightOnly) {
     EXPECT_THROW((void)verify_refinement(mesh, mesh, regular(request)), InputError);
 }
 
-/// The number of cells with a dihedral angle outside these bounds, in degrees, by more than
-/// rounding.
-std::uint64_t cells_outside(const Mesh& mesh, double least, double greatest) {
+/// The least and the greatest dihedral angle of a cell, in degrees.
+std::array<double, 2> extreme_angles(const Mesh& mesh, const CellVertices& cell) {
     const auto normal = [&](VertexIndex a, VertexIndex b, VertexIndex c) {
         const auto& p = mesh.points;
         const Point u{p[b].x - p[a].x, p[b].y - p[a].y, p[b].z - p[a].z};
@@ -191,19 +191,17 @@ std::uint64_t cells_outside(const Mesh& mesh, double least, double greatest) {
     const auto dot = [](const Point& u, const Point& v) {
         return u.x * v.x + u.y * v.y + u.z * v.z;
     };
-    return static_cast<std::uint64_t>(
-        std::ranges::count_if(mesh.cells, [&](const CellVertices& cell) {
-            for (std::size_t k = 0; k < 6; ++k) {
-                const auto [i, j] = cell_edges[k];
-                const auto [m, n] = cell_edges[5 - k];
-                const Point u = normal(cell[i], cell[j], cell[m]);
-                const Point v = normal(cell[i], cell[j], cell[n]);
-                const double cosine = dot(u, v) / std::sqrt(dot(u, u) * dot(v, v));
-                const double angle = std::acos(cosine) * 180 / std::numbers::pi;
-                if (angle < least - 1e-6 || angle > greatest + 1e-6) return true;
-            }
-            return false;
-        }));
+    std::array<double, 2> extremes{180, 0};
+    for (std::size_t k = 0; k < 6; ++k) {
+        const auto [i, j] = cell_edges[k];
+        const auto [m, n] = cell_edges[5 - k];
+        const Point u = normal(cell[i], cell[j], cell[m]);
+        const Point v = normal(cell[i], cell[j], cell[n]);
+        const double cosine = dot(u, v) / std::sqrt(dot(u, u) * dot(v, v));
+        const double angle = std::acos(cosine) * 180 / std::numbers::pi;
+        extremes = {std::min(extremes[0], angle), std::max(extremes[1], angle)};
+    }
+    return extremes;
 }
 
 TEST(CertifiedShapes, BoundTheAnglesOfEachRegularlyRefinedCell) {
@@ -227,13 +225,30 @@ TEST(CertifiedShapes, BoundTheAnglesOfEachRegularlyRefinedCell) {
 }
 
 TEST(CertifiedShapes, AreExceededByLongestEdgeRefinement) {
-    const Mesh coarse = test::kuhn(2, 1, 1);
-    const Mesh fine =
-        reference::refine(coarse, {.random = RandomShare{0.2, 1}}, Scheme::eight, 3).mesh;
+    const Mesh coarse = test::perturbed_kuhn(2, 0.2, 4);
+    IndexVector<CellIndex, ShapeBounds> bounds;
+    for (const auto& [a, b, c, d] : coarse.cells) {
+        const auto& p = coarse.points;
+        const CellCertificate certificate = certify_cell({p[a], p[b], p[c], p[d]});
+        ASSERT_TRUE(certificate.is_closed);
+        bounds.push_back(certificate.bounds);
+    }
+    const auto [fine, maps] =
+        reference::refine(coarse, {.random = RandomShare{0.2, 1}}, Scheme::eight, 3);
+    std::array<std::uint64_t, 3> outside{};  // below alone, above alone, both
+    constexpr double rounding = 1e-6;
+    for (CellIndex c{0}; c < fine.cells.end_index(); ++c) {
+        const auto [least, greatest] = extreme_angles(fine, fine.cells[c]);
+        const ShapeBounds& bound = bounds[maps.cell_to_parent[c]];
+        const bool is_below = least < bound.min_dihedral - rounding;
+        const bool is_above = greatest > bound.max_dihedral + rounding;
+        if (is_below || is_above) ++outside[is_below && is_above ? 2 : is_above ? 1 : 0];
+    }
+    EXPECT_GT(outside[0], 0U);
+    EXPECT_GT(outside[1], 0U);
     const Verdict verdict = test::verified_by_all(coarse, fine, {.closure = Closure::regular}, {3});
-    const std::uint64_t outside = cells_outside(fine, 45, 120);  // the bounds of Kuhn's cell
-    EXPECT_GT(outside, 0U);
-    EXPECT_EQ(verdict.count(Code::dihedral_beyond_certificate), outside);
+    EXPECT_EQ(verdict.count(Code::dihedral_beyond_certificate),
+              outside[0] + outside[1] + outside[2]);
     EXPECT_EQ(check_named(verdict, "certified shapes").status, Status::failed);
 }
 

@@ -38,14 +38,14 @@ const std::vector<Selection> steps{
 };
 
 /// The mesh before this step.
-AdaptiveMesh before_step(std::size_t step) {
+AdaptiveMesh before_step(std::size_t step, Closure closure) {
     Mesh whole = test::marked(test::perturbed_kuhn(5, 0.2, 1), 1);
     test::mark_duplicates(whole.facets, whole.facet_markers);
     test::mark_duplicates(whole.edges, whole.edge_markers);
     const Partition in_blocks{.method = PartitionMethod::block};
     AdaptiveMesh mesh = AdaptiveMesh::distribute(
         test::world(), whole, partition_cells(whole, test::world().size(), in_blocks));
-    for (std::size_t k = 0; k < step; ++k) (void)mesh.refine(steps[k]);
+    for (std::size_t k = 0; k < step; ++k) (void)mesh.refine(steps[k], {.closure = closure});
     return mesh;
 }
 
@@ -53,11 +53,12 @@ AdaptiveMesh before_step(std::size_t step) {
 /// checks each time that the mesh is unchanged, until the work is completed on all. Returns the
 /// number of refused allocations on all processes. If there are many, allocations soon after a
 /// refused one are skipped.
-std::uint64_t fail_each_allocation_of_step(std::size_t step, auto&& prepare) {
+std::uint64_t fail_each_allocation_of_step(std::size_t step, auto&& prepare,
+                                           Closure closure = Closure::longest_edge) {
     const Communicator& world = test::world();
     long failures = 0;
     for (int rank = 0; rank < world.size(); ++rank) {
-        AdaptiveMesh mesh = before_step(step);
+        AdaptiveMesh mesh = before_step(step, closure);
         auto work = prepare(mesh);
         const test::ObservedMesh before(mesh);
         for (long allocations = 0;; allocations += 1 + allocations / 100) {
@@ -85,6 +86,21 @@ TEST(FailingAllocations, OfAStepLeaveTheMeshAsItWasOnAllProcesses) {
             EXPECT_GE(failures, 20U);
         }
     }
+}
+
+TEST(FailingAllocations, OfARegularStepOrItsCoarseningLeaveTheMeshAsItWasOnAllProcesses) {
+    constexpr StepOptions regular{.closure = Closure::regular};
+    for (std::size_t step = 0; step < steps.size(); ++step) {
+        const std::uint64_t failures = fail_each_allocation_of_step(
+            step,
+            [&](AdaptiveMesh& mesh) { return [&] { (void)mesh.refine(steps[step], regular); }; },
+            Closure::regular);
+        EXPECT_GE(failures, 20U);
+    }
+    const std::uint64_t failures = fail_each_allocation_of_step(
+        2, [&](AdaptiveMesh& mesh) { return [&] { (void)mesh.coarsen(steps[0]); }; },
+        Closure::regular);
+    EXPECT_GE(failures, 50U);
 }
 
 TEST(FailingAllocations, OfAStepBySoManyMarkedEdgesLeaveTheMeshAsItWas) {
@@ -195,7 +211,7 @@ TEST(FailingAllocations, OfTransferringValuesAreThrownOnAllProcesses) {
         std::vector<int> ranks;
         for (const std::uint64_t root : mesh.roots())
             ranks.push_back(static_cast<int>(root) % size);
-        AdaptiveMesh moved = before_step(1);
+        AdaptiveMesh moved = before_step(1, Closure::longest_edge);
         return [=, migration = moved.migrate(ranks)] {
             const long left =
                 std::exchange(allocations_left, never);  // the caller makes the copies

@@ -14,6 +14,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/orientation.hpp>
 
+#include "shapes/integers.hpp"
 #include "shapes/patterns.hpp"
 #include "shapes/shape_set.hpp"
 #include "support/meshes.hpp"
@@ -215,6 +216,23 @@ TEST(Certificate, IsRepeatedWithLargerIntegersIfLengthsGrow) {
     EXPECT_EQ(found.generations, expected.generations);
     EXPECT_NEAR(found.bounds.min_dihedral, expected.bounds.min_dihedral, 1e-8);
     EXPECT_NEAR(found.bounds.max_dihedral, expected.bounds.max_dihedral, 1e-8);
+}
+
+/// Bisection makes lengths four times as large, and intermediate results four times larger still.
+template <class Int>
+void expect_headroom(const Int& first_that_does_not_fit) {
+    const Int largest = first_that_does_not_fit - 1;
+    EXPECT_TRUE(shapes::fits(largest));
+    EXPECT_FALSE(shapes::fits(first_that_does_not_fit));
+    const Int product = largest * 16;
+    EXPECT_TRUE(product > largest);
+    EXPECT_TRUE(product / 16 == largest);
+}
+
+TEST(CertificateIntegers, FitIfBisectionCannotOverflow) {
+    expect_headroom<shapes::Int128>(shapes::Int128{1} << 122);
+    expect_headroom<shapes::Int512>(shapes::Int512{1} << 506);
+    EXPECT_TRUE(shapes::fits(shapes::BigInt{shapes::BigInt{1} << 5000}));
 }
 
 /// Two edges of the base that are equal, or differ in their last bits: either may be the longest.

@@ -48,14 +48,14 @@ private:
 /// between two normals.
 double angle_error(const Shape<4>& shape) {
     Bound least_normal = std::numeric_limits<Bound>::infinity();
-    for (const auto& [i, j, k] : cell_faces) {
-        const auto vector = [&](std::size_t to) {
-            return std::array<Bound, 3>{Bound{shape.corners[to].x} - shape.corners[i].x,
-                                        Bound{shape.corners[to].y} - shape.corners[i].y,
-                                        Bound{shape.corners[to].z} - shape.corners[i].z};
+    for (const auto& face : cell_faces) {
+        const Point& from = shape.corners[face[0]];
+        const auto vector = [&](const Point& to) {
+            return std::array<Bound, 3>{Bound{to.x} - from.x, Bound{to.y} - from.y,
+                                        Bound{to.z} - from.z};
         };
-        const auto u = vector(j);
-        const auto v = vector(k);
+        const auto u = vector(shape.corners[face[1]]);
+        const auto v = vector(shape.corners[face[2]]);
         const Bound x = u[1] * v[2] - u[2] * v[1];
         const Bound y = u[2] * v[0] - u[0] * v[2];
         const Bound z = u[0] * v[1] - u[1] * v[0];

@@ -7,7 +7,7 @@
     matrices = interpolations(mesh.levels())  # for PETSc's multigrid, PCMG
 """
 
-from typing import Any, List, NamedTuple, Optional, Sequence
+from typing import Any, List, NamedTuple, Optional
 
 from numpy.typing import NDArray
 from petsc4py import PETSc  # type: ignore[import]  # initialises PETSc
@@ -67,7 +67,7 @@ def from_plex(plex: Any, *, cells: str = "Cell Sets", faces: str = "Face Sets",
     return FromPlex(*_petsc.from_plex(plex, cells, faces, edges))
 
 
-def interpolations(levels: Sequence[Level], comm: Optional[Any] = None) -> List[Any]:
+def interpolations(levels: List[Level], comm: Optional[Any] = None) -> List[Any]:
     """Collective. Returns for each level but the last the petsc4py.PETSc.Mat that interpolates P1 values to the next
     level. Rows and columns are those of vectors in the order of the levels' vertex_sharing.index_map().
 

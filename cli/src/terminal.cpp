@@ -56,9 +56,13 @@ void print_error_text(std::string_view text) {
 void print_error_line(std::string_view message) {
     fmt::memory_buffer line;
     fmt::format_to(std::back_inserter(line), "octetra: ");
-    for (const char c : message) {
+    for (std::size_t i = 0; i < message.size(); ++i) {
+        const char c = message[i];
         const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte == 0x7f) {
+        // A message may show a text with a caret below it in indented lines.
+        if (c == '\n' && message.substr(i + 1).starts_with("  ")) {
+            line.push_back(c);
+        } else if (byte < 0x20 || byte == 0x7f) {
             fmt::format_to(std::back_inserter(line), "\\x{:02x}", byte);
         } else {
             line.push_back(c);

@@ -60,6 +60,7 @@ void check(const Selection& selection) {
         check(box, "box", numbers_of(box.low) + "," + numbers_of(box.high));
     }
     if (selection.random) check(*selection.random, "random");
+    for (const Selection& other : selection.narrowed_by) check(other);
     if (!selection.max_volume) return;
     using Limits = std::numeric_limits<double>;
     if (!is_between(Limits::denorm_min(), *selection.max_volume, Limits::max())) {

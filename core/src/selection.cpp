@@ -1,11 +1,18 @@
 #include <octetra/core/selection.hpp>
 
+#include <octetra/core/mean_of_four.hpp>
+#include <octetra/core/select_cells.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
 
 namespace octetra {
 namespace {
@@ -33,17 +40,6 @@ void put_in_order(double& a, double& b) {
     const double less = b < a ? b : a;
     b = b < a ? a : b;
     a = less;
-}
-
-double mean_of_four(double a, double b, double c, double d) {
-    put_in_order(a, b);
-    put_in_order(c, d);
-    put_in_order(a, c);
-    put_in_order(b, d);
-    put_in_order(b, c);
-    const double sum = ((a + b) + c) + d;
-    if (std::isfinite(sum)) return sum / 4;
-    return static_cast<double>(((Wide{a} + b) + c + d) / 4);
 }
 
 /// Returns whether p is nearer to the centre than the radius, or nothing if Float cannot decide.
@@ -123,6 +119,17 @@ bool is_larger(const Corners& corners, double limit) {
 
 }  // namespace
 
+double mean_of_four(double a, double b, double c, double d) {
+    put_in_order(a, b);
+    put_in_order(c, d);
+    put_in_order(a, c);
+    put_in_order(b, d);
+    put_in_order(b, c);
+    const double sum = ((a + b) + c) + d;
+    if (std::isfinite(sum)) return sum / 4;
+    return static_cast<double>(((Wide{a} + b) + c + d) / 4);
+}
+
 Point centroid(const Corners& corners) {
     const auto& [a, b, c, d] = corners;
     return {mean_of_four(a.x, b.x, c.x, d.x), mean_of_four(a.y, b.y, c.y, d.y),
@@ -135,7 +142,8 @@ double volume(const Corners& corners) {
     return narrow ? *narrow / 6 : static_cast<double>(*six_volumes<Wide>(sorted) / 6);
 }
 
-bool marks(const Selection& selection, const Corners& corners, Marker region, GlobalCell root) {
+bool marks_by_criteria(const Selection& selection, const Corners& corners, Marker region,
+                       GlobalCell root) {
     if (selection.all) return true;
     if (std::ranges::find(selection.regions, region) != selection.regions.end()) return true;
     if (std::ranges::binary_search(selection.cells, root)) return true;
@@ -147,6 +155,21 @@ bool marks(const Selection& selection, const Corners& corners, Marker region, Gl
     }
     if (selection.random && draws(*selection.random, corners)) return true;
     return selection.max_volume && is_larger(corners, *selection.max_volume);
+}
+
+bool marks(const Selection& selection, const Corners& corners, Marker region, GlobalCell root) {
+    if (!is_compound(selection)) return marks_by_criteria(selection, corners, region, root);
+    const SelectedCells selected = select_cells(selection, 1,
+                                                [&](std::size_t) {
+                                                    return CellToTest{corners, region, root};
+                                                },
+                                                {});
+    if (!selected.undefined.empty()) {
+        throw InputError(
+            fmt::format("{}: the expression has no value in a cell",
+                        expressions_of(selection)[selected.undefined[0].expression]->text()));
+    }
+    return selected.marks[0] != 0;
 }
 
 }  // namespace octetra

@@ -9,4 +9,5 @@ from ._octetra.mark import (
     random as random,
     region as region,
     sphere as sphere,
+    where as where,
 )

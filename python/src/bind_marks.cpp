@@ -15,6 +15,7 @@
 #include "arguments.hpp"
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "fields.hpp"
 
 namespace octetra::python {
 namespace {
@@ -66,6 +67,22 @@ py::array marks_of_selection(const Mesh& mesh, const Selection& selection) {
         bytes[c] = marks(selection, corners, region, GlobalCell{0}) ? 1 : 0;
     }
     return booleans(std::move(bytes));
+}
+
+/// Collective. The marks of an expression, with the fields that it may use.
+py::array marks_where(const Arguments& arguments) {
+    Mesh& mesh = mesh_in(arguments);
+    Selection selection;
+    std::vector<od::Field> fields;
+    convert_on_each(mesh.processes(), [&] {
+        const auto [itself, text, on_vertices, on_cells] = arguments.values<4>();
+        selection.where.emplace_back(string_from("expression", text));
+        fields = fields_of(py::reinterpret_borrow<py::object>(on_vertices),
+                           py::reinterpret_borrow<py::object>(on_cells), mesh.vertex_count(),
+                           mesh.cell_count());
+    });
+    return booleans(
+        mesh.ask([&](const od::AdaptiveMesh& now) { return now.marked_cells(selection, fields); }));
 }
 
 /// The tag, or that of the group of cells with this name.
@@ -151,6 +168,12 @@ void bind_marks(py::module_& module) {
                  "Collective. bool (cells,): marks this fraction of the cells, those with the "
                  "largest indicators, and all cells that tie with the last one.");
     bind_criteria(mark);
+    def_function(
+        mark, "where", "mesh, expression, vertex_fields=None, cell_fields=None", &marks_where,
+        "Collective. bool (cells,): marks the cells for which the expression is true, such "
+        "as \"distance(wall) < 0.1 and longest > 0.02\". As --where.\n\n"
+        "expression: the same on all ranks. vertex_fields, cell_fields: {name: array}, the "
+        "values that field(name) uses.");
 }
 
 }  // namespace octetra::python

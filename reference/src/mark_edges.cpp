@@ -1,6 +1,10 @@
 #include "mark_edges.hpp"
 
+#include <algorithm>
+
+#include <octetra/core/cell_quantities.hpp>
 #include <octetra/core/check_selection.hpp>
+#include <octetra/core/select_cells.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
 #include "closure.hpp"
@@ -11,15 +15,22 @@ CellMarks marked_cells(const Refinement& refined, const Selection& selection) {
     const StandardArithmetic standard;
     check(selection);
     const Mesh& mesh = refined.mesh;
-    CellMarks marks(mesh.cells.size(), false);
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        Corners corners;
-        for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.points[mesh.cells[c][k]];
-        const Marker region = mesh.regions.empty() ? 0 : mesh.regions[c];
-        const GlobalCell root{refined.maps.cell_to_parent[c].value()};
-        marks[c] = octetra::marks(selection, corners, region, root);
+    const SelectedCells selected = select_cells(
+        selection, mesh.cells.size(),
+        [&](std::size_t number) {
+            const CellIndex c{number};
+            CellToTest cell;
+            for (std::size_t k = 0; k < 4; ++k) cell.corners[k] = mesh.points[mesh.cells[c][k]];
+            cell.region = mesh.regions.empty() ? 0 : mesh.regions[c];
+            cell.root = GlobalCell{refined.maps.cell_to_parent[c].value()};
+            return cell;
+        },
+        term_values(selection, mesh, refined.maps));
+    if (!selected.undefined.empty()) {
+        const auto& [cell, expression] = std::ranges::min(selected.undefined);
+        refuse_undefined(selection, expression, mesh.index_base + cell);
     }
-    return marks;
+    return {selected.marks.begin(), selected.marks.end()};
 }
 
 EdgeSet mark_edges(const Mesh& mesh, const EdgeTable& table, const CellMarks& marks,

@@ -23,15 +23,15 @@ settings = tomllib.loads((source / "pyproject.toml").read_text())
 
 # Spack's names of the packages sought by find_package().
 SPACK_NAMES = {"fmt": "fmt", "ZLIB": "zlib-api", "SerialHDF5": "hdf5",
-               "Boost": "boost", "xxHash": "xxhash", "MPI": "mpi", "METIS": "metis",
+               "Boost": "boost", "xxHash": "xxhash", "muparser": "muparser", "MPI": "mpi", "METIS": "metis",
                "CGAL": "cgal", "CLI11": "cli11", "nlohmann_json": "nlohmann-json"}
 # EasyBuild's names; MPI is part of its toolchain.
 EASYBUILD_NAMES = {"fmt": "fmt", "ZLIB": "zlib", "SerialHDF5": "HDF5",
-                   "Boost": "Boost", "xxHash": "xxHash", "METIS": "METIS",
+                   "Boost": "Boost", "xxHash": "xxHash", "muparser": "muParser", "METIS": "METIS",
                    "CGAL": "CGAL", "CLI11": "CLI11", "nlohmann_json": "nlohmann_json"}
 # The names of conda-forge.
 CONDA_NAMES = {"fmt": "fmt", "ZLIB": "zlib", "SerialHDF5": "hdf5",
-               "Boost": "libboost-headers", "xxHash": "xxhash", "MPI": "openmpi", "METIS": "metis",
+               "Boost": "libboost-headers", "xxHash": "xxhash", "muparser": "muparser", "MPI": "openmpi", "METIS": "metis",
                "CGAL": "cgal-cpp", "CLI11": "cli11", "nlohmann_json": "nlohmann_json"}
 
 

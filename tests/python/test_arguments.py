@@ -118,6 +118,9 @@ CASES = {
     "step must be an integer from -9223372036854775808 to 9223372036854775807, not 'a'":
         lambda m: Call("no.octetra")(m.save, "no.octetra", step="a"),
     "text must be a string, not 3": lambda m: Call("no.octetra")(m.save, "no.octetra", text=3),
+    "expression must be a string, not 3": lambda m: Call(m, "x < 1")(octetra.mark.where, m, 3),
+    "column 3: = assigns; a comparison for equality is ==\n  x = 1\n    ^": lambda m: Call(m, "x < 1")(
+        octetra.mark.where, m, "x = 1"),
     "coarse must be a string or an os.PathLike, not 3": lambda m: Call()(m.verify, 3),
     "fast must be True or False, not 'x'": lambda m: Call()(m.verify, fast="x"),
     "min_dihedral must be a number, not 'x'": lambda m: Call()(m.verify, min_dihedral="x"),

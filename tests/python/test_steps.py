@@ -55,6 +55,7 @@ def test_the_regular_closure_is_that_of_the_command_and_carries_values(folder, c
     (lambda m: octetra.mark.box(m, (0, 0, 0), (0.5, 0.5, 0.5)), ("--box", "0,0,0,0.5,0.5,0.5")),
     (lambda m: octetra.mark.random(m, 0.2, 5), ("--random", "0.2", "--seed", "5")),
     (lambda m: octetra.mark.larger_than(m, 0.001), ("--max-volume", "0.001")),
+    (lambda m: octetra.mark.where(m, "x < 0.3 and not boundary"), ("--where", "x < 0.3 and not boundary")),
     (lambda m: octetra.mark.region(m, 2), ("--region", "2")),
 ])
 def test_criteria_mark_the_same_cells_as_the_command(folder, criterion, option):
@@ -66,6 +67,16 @@ def test_criteria_mark_the_same_cells_as_the_command(folder, criterion, option):
         command("refine", folder / "in.mesh", *option, "--scheme", scheme, "-o",
                 folder / "expected.mesh")
         assert same(folder / "out.mesh", folder / "expected.mesh")
+
+
+def test_expressions_use_the_fields_of_the_arguments(mesh):
+    height = np.asarray(mesh.points)[:, 2]
+    index = np.arange(len(mesh.cells))
+    corners = height[np.asarray(mesh.cells)]
+    low = octetra.mark.where(mesh, "field(h) < 0.4", {"h": height})
+    assert low.dtype == bool and np.array_equal(low, corners.mean(axis=1) < 0.4)
+    high = octetra.mark.where(mesh, "field_max(h) > 0.8 and field(i) >= 5", {"h": height}, {"i": index})
+    assert np.array_equal(high, (corners.max(axis=1) > 0.8) & (index >= 5))
 
 
 def test_regions_have_the_names_of_the_file(folder):

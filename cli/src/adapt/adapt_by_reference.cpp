@@ -32,10 +32,11 @@ using reference::CellMarks;
 using reference::History;
 using reference::Refinement;
 
-/// Returns the mesh with identity maps: each cell is its own parent.
-Refinement as_input(const Mesh& mesh) {
-    Refinement refinement{mesh, {}};
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+/// Returns a refined mesh with the maps of its vertices, in which each cell is its own parent.
+Refinement with_cells_as_parents(const Refinement& refined) {
+    Refinement refinement = refined;
+    refinement.maps.cell_to_parent.clear();
+    for (CellIndex c{0}; c < refined.mesh.cells.end_index(); ++c) {
         refinement.maps.cell_to_parent.push_back(c);
     }
     return refinement;
@@ -71,7 +72,7 @@ public:
         const Scheme scheme = step.scheme;
         // A list of cells refers to the mesh before the first level, and to their descendants
         // later.
-        Refinement since = as_input(mesh());
+        Refinement since = with_cells_as_parents(refined_);
         return repeat(levels, [&] {
             const CellMarks marks = reference::marked_cells(since, selection);
             if (!take(reference::refined(history_, marks, scheme))) return false;
@@ -79,7 +80,8 @@ public:
             for (const CellIndex parent : parents_after(since.mesh, marks, scheme)) {
                 ancestors.push_back(since.maps.cell_to_parent[parent]);
             }
-            since = {mesh(), {.cell_to_parent = std::move(ancestors)}};
+            since = refined_;
+            since.maps.cell_to_parent = std::move(ancestors);
             return true;
         });
     }
@@ -92,7 +94,8 @@ public:
         }
         closure_ = Closure::regular;
         return repeat(levels, [&] {
-            const CellMarks marks = reference::marked_cells(as_input(mesh()), selection);
+            const CellMarks marks =
+                reference::marked_cells(with_cells_as_parents(refined_), selection);
             return take(reference::refined_regularly(history_, marks));
         });
     }
@@ -100,7 +103,7 @@ public:
     /// As above, for coarsening. Sets `is_any` to whether the last level marked any cell.
     int coarsen(const Selection& selection, bool outside, int levels, bool& is_any) {
         return repeat(levels, [&] {
-            CellMarks marks = reference::marked_cells(as_input(mesh()), selection);
+            CellMarks marks = reference::marked_cells(with_cells_as_parents(refined_), selection);
             if (outside) {
                 for (char& mark : marks) mark = mark == 0 ? 1 : 0;
             }

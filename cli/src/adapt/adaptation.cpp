@@ -15,6 +15,7 @@
 #include <octetra/core/files/maps_files.hpp>
 #include <octetra/core/files/series.hpp>
 #include <octetra/core/mesh_source.hpp>
+#include <octetra/core/select_cells.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/read_parts.hpp>
@@ -150,6 +151,16 @@ Closure common_closure(const Script& script) {
     return are_all && has_regular_step(script) ? Closure::regular : Closure::longest_edge;
 }
 
+/// Returns whether an expression of a step uses the history of the mesh.
+bool uses_history(const Script& script) {
+    return std::ranges::any_of(script.steps, [](const ScriptStep& step) {
+        const auto* const refine = std::get_if<RefineStep>(&step.step);
+        const auto* const coarsen = std::get_if<CoarsenStep>(&step.step);
+        return (refine != nullptr && octetra::uses_history(refine->selection)) ||
+               (coarsen != nullptr && octetra::uses_history(coarsen->selection));
+    });
+}
+
 /// Collective. Returns whether the result satisfies the claim.
 bool is_valid(const Run& run, const distributed::AdaptiveMesh& mesh, verify::MeshSlice coarse,
               const Script& script, const MeshFacts& read, const std::optional<CellsSince>& since) {
@@ -163,8 +174,9 @@ bool is_valid(const Run& run, const distributed::AdaptiveMesh& mesh, verify::Mes
     if (since) maps.emplace(mesh, *since);
     Judgement judgement{.closure = common_closure(script), .maps = maps ? &*maps : nullptr};
     if (options.claim == Claim::refines_mesh) {
-        judgement.request =
-            request_of(std::get<RefineStep>(script.steps.front().step), read, run.world);
+        const auto& step = std::get<RefineStep>(script.steps.front().step);
+        note_unverified(run, step.selection);
+        if (can_verify(step.selection)) judgement.request = request_of(step, read, run.world);
     }
     return is_valid_refinement(run, std::move(coarse), slice_of(mesh), judgement);
 }
@@ -221,7 +233,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
                 .has_steps = has_history,
                 .options = steps,
                 .balance = balance_of(options.parallel),
-                .may_forget_history = options.series.empty(),
+                .may_forget_history = options.series.empty() && !uses_history(script),
                 .recalls_history = tells_origin,
                 .on_step = follow,
                 .on_move = move_along,

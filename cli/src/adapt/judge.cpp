@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include <octetra/core/select_cells.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
 
@@ -36,6 +38,13 @@ verify::MeshSlice slice_of(const distributed::AdaptiveMesh& mesh) {
 verify::MeshSlice slice_of(const distributed::DistributedMesh& mesh) {
     auto canonical = distributed::CanonicalMesh::of(mesh);
     return verify::slice_of(canonical.whole());
+}
+
+void note_unverified(const Run& run, const Selection& selection) {
+    const std::vector<Term> terms = external_terms(selection);
+    if (terms.empty() || !run.world.is_first()) return;
+    note(fmt::format("--verify checks a refinement of any cells: the verifier cannot evaluate {}",
+                     text_of(terms.front())));
 }
 
 bool is_valid_refinement(const Run& run, verify::MeshSlice coarse, verify::MeshSlice fine,

@@ -26,6 +26,10 @@ struct Judgement {
     bool is_only_output = false;  ///< whether the run writes no other mesh
 };
 
+/// Prints a note if the verifier cannot evaluate the selection, so that --verify checks a
+/// refinement of any cells.
+void note_unverified(const Run& run, const Selection& selection);
+
 /// Collective. Verifies OUT as a refinement of MESH, as octetra verify does; no process holds the
 /// whole mesh.
 [[nodiscard]] bool is_valid_refinement(const Run& run, verify::MeshSlice coarse,

@@ -18,19 +18,12 @@ std::vector<std::uint8_t> listed_cells(const distributed::AdaptiveMesh& mesh,
 }
 
 void add_marked_cells(const distributed::AdaptiveMesh& mesh, const Selection& selection,
+                      std::span<const distributed::Field> fields,
                       std::vector<std::uint8_t>& cell_to_mark) {
     Selection criteria = selection;
     criteria.cells.clear();
-    const std::vector<Marker> regions =
-        criteria.regions.empty() ? std::vector<Marker>{} : mesh.regions();
-    const auto points = mesh.points();
-    const auto cells = mesh.cells();
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        Corners corners;
-        for (std::size_t k = 0; k < 4; ++k) corners[k] = points[cells[c][k].value()];
-        const Marker region = regions.empty() ? Marker{0} : regions[c];
-        if (marks(criteria, corners, region, GlobalCell{0})) cell_to_mark[c] = 1;
-    }
+    const std::vector<std::uint8_t> marked = mesh.marked_cells(criteria, fields);
+    for (std::size_t c = 0; c < marked.size(); ++c) cell_to_mark[c] |= marked[c];
 }
 
 }  // namespace octetra::cli

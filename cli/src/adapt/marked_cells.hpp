@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <octetra/core/selection.hpp>
@@ -14,9 +15,10 @@ namespace octetra::cli {
 [[nodiscard]] std::vector<std::uint8_t> listed_cells(const distributed::AdaptiveMesh& mesh,
                                                      const std::vector<GlobalCell>& cells);
 
-/// Sets the byte of each cell of this process that the criteria, except for the list of cells,
-/// mark.
+/// Collective. Sets the byte of each cell of this process that the criteria, except for the list of
+/// cells, mark. Expressions may use the fields.
 void add_marked_cells(const distributed::AdaptiveMesh& mesh, const Selection& selection,
+                      std::span<const distributed::Field> fields,
                       std::vector<std::uint8_t>& cell_to_mark);
 
 }  // namespace octetra::cli

@@ -123,7 +123,7 @@ public:
 private:
     [[nodiscard]] Followers followers(int levels) const {
         return {level_progress(run_->quiet, levels), run_->on_step, run_->on_move,
-                is_refined_before_};
+                is_refined_before_, run_->fields};
     }
 
     /// Collective. Completes the selection with the facts of the current mesh.

@@ -22,8 +22,8 @@ struct ScriptRun {
     std::function<void(const distributed::Adaptation&)> on_step = {};  ///< after each level
     std::function<void(const distributed::Migration&)> on_move = {};   ///< after each migration
     std::function<void()> on_changed = {};  ///< called after each refinement or coarsening step
-    /// The fields of the current mesh whenever a step writes it; on_step and on_move must keep them
-    /// so.
+    /// The fields of the current mesh whenever a step uses or writes them; on_step and on_move must
+    /// keep them so.
     const std::vector<distributed::Field>* fields = nullptr;
     bool quiet = false;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/select_cells.hpp>
 
 #include "adapt/marked_cells.hpp"
 #include "adapt/step_texts.hpp"
@@ -50,9 +51,10 @@ std::vector<std::uint8_t> listed_or_none(const AdaptiveMesh& mesh,
 
 /// Collective. Returns the marks of the cells of this process that a step selects in the current
 /// mesh.
-std::vector<std::uint8_t> marks_to_coarsen(const AdaptiveMesh& mesh, const CoarsenStep& step) {
+std::vector<std::uint8_t> marks_to_coarsen(const AdaptiveMesh& mesh, const CoarsenStep& step,
+                                           std::span<const distributed::Field> fields) {
     std::vector<std::uint8_t> marked = listed_or_none(mesh, step.selection.cells);
-    add_marked_cells(mesh, step.selection, marked);
+    add_marked_cells(mesh, step.selection, fields, marked);
     if (!step.typed.outside) return marked;
     for (std::uint8_t& mark : marked) mark = mark == 0 ? 1 : 0;
     return marked;
@@ -71,16 +73,16 @@ int refine(AdaptiveMesh& mesh, const RefineStep& step, const distributed::StepOp
         }
         return std::move(done.step);
     };
-    if (step.selection.cells.empty()) {
+    if (step.selection.cells.empty() && !is_compound(step.selection)) {
         return repeat(mesh, step.typed.levels, followers, [&] {
             return refine_by(step.selection, [](const distributed::Migration&) {});
         });
     }
     std::vector<std::uint8_t> listed;
-    if (step.typed.levels > 0) listed = listed_cells(mesh, step.selection.cells);
+    if (step.typed.levels > 0) listed = listed_or_none(mesh, step.selection.cells);
     return repeat(mesh, step.typed.levels, followers, [&] {
         std::vector<std::uint8_t> marked = listed;
-        add_marked_cells(mesh, step.selection, marked);
+        add_marked_cells(mesh, step.selection, *followers.fields, marked);
         Adaptation done = refine_by(
             std::span<const std::uint8_t>(marked),
             [&](const distributed::Migration& move) { listed = move.cells(std::move(listed)); });
@@ -97,7 +99,7 @@ int refine(AdaptiveMesh& mesh, const RefineStep& step, const distributed::StepOp
 int coarsen(AdaptiveMesh& mesh, const CoarsenStep& step, const Followers& followers,
             bool& is_any_marked) {
     return repeat(mesh, step.typed.levels, followers, [&] {
-        const std::vector<std::uint8_t> marked = marks_to_coarsen(mesh, step);
+        const std::vector<std::uint8_t> marked = marks_to_coarsen(mesh, step, *followers.fields);
         const bool marks_here = std::ranges::count(marked, 0) < std::ssize(marked);
         is_any_marked = mesh.processes().max(marks_here ? 1 : 0) == 1;
         return mesh.coarsen(std::span<const std::uint8_t>(marked));

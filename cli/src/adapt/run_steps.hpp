@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <octetra/distributed/adaptive_mesh.hpp>
 
@@ -18,6 +19,8 @@ struct Followers {
     std::function<void(const distributed::Adaptation&)> on_step;   ///< on all processes; collective
     std::function<void(const distributed::Migration&)> on_move;    ///< before a step; likewise
     bool is_refined_before = false;  ///< whether the mesh already had a history
+    /// The fields of the current mesh, for expressions; on_step and on_move must keep them so.
+    const std::vector<distributed::Field>* fields = nullptr;
 };
 
 /// Collective. Repeats marking and refining as often as the step requests, with the same result as

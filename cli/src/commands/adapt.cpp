@@ -63,7 +63,7 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
         "history\n"
         "  write FILE                                      write the current mesh in any format\n"
         "--cells uses the numbers of a file written just before the step, from 0 or 1 as in MESH.\n"
-        "Names must not contain blanks. All lines are checked before the first step is run.\n"
+        "Names with blanks are quoted. All lines are checked before the first step is run.\n"
         "Fields of --fields or a .octetra are transferred: midpoints get means, pieces copies,\n"
         "merged cells means; integers that have no mean are dropped, with a note.\n"
         "Exit status: 0 done; 1 --verify finds the result not valid, and OUT is not written;\n"

@@ -27,12 +27,11 @@ void coarsen(const CoarsenOptions& options, const distributed::Communicator& wor
                         "written by octetra refine or adapt with -o FILE.octetra",
                         input));
     }
+    const Selection selection = parse_coarsening(options.coarsening);
+    if (options.adaptation.verify) check_verifiable(selection);
     AdaptationOptions adaptation = options.adaptation;
     adaptation.claim = Claim::coarsens_mesh;
-    const Script one_step{
-        {},
-        false,
-        {{0, "coarsen", CoarsenStep{options.coarsening, parse_coarsening(options.coarsening)}}}};
+    const Script one_step{{}, false, {{0, "coarsen", CoarsenStep{options.coarsening, selection}}}};
     adapt(adaptation, one_step, measured(world, options.adaptation.profile));
 }
 
@@ -66,7 +65,10 @@ void add_coarsen(CLI::App& program, const distributed::Communicator& world) {
         "  octetra refine cube.mesh --sphere 0,0,0,0.5 --levels 2 -o fine.octetra\n"
         "  octetra coarsen fine.octetra --outside --sphere 0,0,0,0.3 -o coarser.octetra\n"
         "  mpirun -n 4 octetra coarsen coarser.octetra --all --levels 9 -o cube.vtu");
-    command->callback([options, world] { coarsen(*options, world); });
+    command->callback([options, command, world] {
+        group_criteria(*command, options->coarsening.selection);
+        coarsen(*options, world);
+    });
 }
 
 }  // namespace octetra::cli

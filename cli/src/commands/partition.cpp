@@ -144,6 +144,7 @@ void add_partition(CLI::App& program, const distributed::Communicator& world) {
         "  octetra partition gear.1.ele -n 4 --sphere 1,0,0.15,0.4 --levels 2");
     command->callback([options, command, world] {
         options->has_refinement_options = has_refinement_options(*command);
+        group_criteria(*command, options->refinement.selection);
         world.on_first([&] { partition(*options); });
     });
 }

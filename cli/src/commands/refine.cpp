@@ -83,7 +83,7 @@ auto with_mesh_name(const Run& run, auto&& engine) {
 std::uint64_t too_large_cells(const IndexVector<VertexIndex, Point>& points,
                               const IndexVector<CellIndex, CellVertices>& cells,
                               const Selection& selection) {
-    if (!selection.max_volume) return 0;
+    if (!selection.max_volume || !selection.narrowed_by.empty()) return 0;
     const Selection too_large{.max_volume = selection.max_volume};
     return static_cast<std::uint64_t>(std::ranges::count_if(cells, [&](const CellVertices& cell) {
         const auto& [a, b, c, d] = cell;
@@ -119,11 +119,12 @@ void report_refined(const Run& run, const RefineStep& step, int levels, int rank
 /// Collective. Returns whether the result of the step is valid, and reports it.
 bool is_valid(const Run& run, const RefineStep& step, verify::MeshSlice coarse, MeshSource& fine,
               bool has_maps) {
-    const Judgement judgement{
-        .request = verify::Request{step.selection, step.scheme, step.typed.levels},
-        .closure = step.closure,
-        .maps = has_maps ? &fine : nullptr,
-        .is_only_output = true};
+    Judgement judgement{
+        .closure = step.closure, .maps = has_maps ? &fine : nullptr, .is_only_output = true};
+    note_unverified(run, step.selection);
+    if (can_verify(step.selection)) {
+        judgement.request = {step.selection, step.scheme, step.typed.levels};
+    }
     if (!is_valid_refinement(run, std::move(coarse), verify::slice_of(fine), judgement)) {
         return false;
     }
@@ -324,7 +325,10 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"
         "  mpirun -n 4 octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu");
-    refine_command->callback([options, world] { refine(*options, world); });
+    refine_command->callback([options, refine_command, world] {
+        group_criteria(*refine_command, options->refinement.selection);
+        refine(*options, world);
+    });
 }
 
 }  // namespace octetra::cli

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include <octetra/core/check_selection.hpp>
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/lists.hpp>
+#include <octetra/core/select_cells.hpp>
 
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
@@ -34,6 +36,14 @@ Box parse_box(const std::string& text) {
     const Box box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
     check(box, "--box", text);
     return box;
+}
+
+Expression parse_where(const std::string& text) {
+    try {
+        return Expression(text);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("--where: {}", error.what()));
+    }
 }
 
 Marker parse_tag(const std::string& text) {
@@ -118,12 +128,57 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
                        "cells with a larger volume")
         ->type_name("V")
         ->group(group);
+    subcommand
+        .add_option("--where", options.where,
+                    "cells for which an expression is true, such as \"longest > 0.02 and x < 1\";\n"
+                    "docs/cli.md lists its variables and functions")
+        ->type_name("EXPRESSION")
+        ->allow_extra_args(false)
+        ->group(group);
+    subcommand
+        .add_flag_function(
+            "--and", [](std::int64_t) {},
+            "of the cells that the criteria before it mark, only those that one of the\n"
+            "criteria after it marks, too")
+        ->group(group);
+}
+
+void group_criteria(const CLI::App& subcommand, SelectionOptions& options) {
+    std::vector<SelectionOptions> groups(1);
+    const auto take_next = [](std::vector<std::string>& to, std::vector<std::string>& from) {
+        to.push_back(std::move(from.front()));
+        from.erase(from.begin());
+    };
+    for (const CLI::Option* option : subcommand.parse_order()) {
+        const std::vector<std::string>& names = option->get_lnames();
+        const std::string name = names.empty() ? "" : names.front();
+        SelectionOptions& group = groups.back();
+        if (name == "and") groups.emplace_back();
+        if (name == "all") group.all = options.all;
+        if (name == "cells") group.cells_file = options.cells_file;
+        if (name == "sphere") take_next(group.spheres, options.spheres);
+        if (name == "box") take_next(group.boxes, options.boxes);
+        if (name == "region") take_next(group.regions, options.regions);
+        if (name == "random") group.random = options.random;
+        if (name == "seed") group.seed = options.seed;
+        if (name == "max-volume") group.max_volume = options.max_volume;
+        if (name == "where") take_next(group.where, options.where);
+    }
+    if (groups.size() > 1) {
+        if (!std::ranges::all_of(groups, has_criterion)) {
+            throw InputError("--and requires a criterion before and after it");
+        }
+        if (!options.cells_file.empty()) throw InputError("--cells cannot be combined with --and");
+    }
+    options = std::move(groups.front());
+    options.narrowed_by.assign(std::make_move_iterator(groups.begin() + 1),
+                               std::make_move_iterator(groups.end()));
 }
 
 bool has_criterion(const SelectionOptions& options) {
     return options.all || !options.cells_file.empty() || !options.spheres.empty() ||
            !options.boxes.empty() || !options.regions.empty() || options.random ||
-           options.max_volume;
+           options.max_volume || !options.where.empty();
 }
 
 Selection parse_selection(const SelectionOptions& options, std::string_view wanted) {
@@ -142,16 +197,35 @@ Selection parse_selection(const SelectionOptions& options, std::string_view want
         throw InputError("--seed requires --random, as in --random 0.1 --seed 7");
     }
     selection.max_volume = options.max_volume;
+    for (const std::string& text : options.where) selection.where.push_back(parse_where(text));
     if (!has_criterion(options)) {
-        throw InputError(fmt::format(
-            "specify {}: --all, --cells, --sphere, --box, --region, --random or --max-volume",
-            wanted));
+        throw InputError(
+            fmt::format("specify {}: --all, --cells, --sphere, --box, --region, --random, "
+                        "--max-volume or --where",
+                        wanted));
+    }
+    for (const SelectionOptions& other : options.narrowed_by) {
+        selection.narrowed_by.push_back(parse_selection(other, wanted));
     }
     return selection;
 }
 
+bool can_verify(const Selection& selection) { return external_terms(selection).empty(); }
+
+void check_verifiable(const Selection& selection) {
+    const std::vector<Term> terms = external_terms(selection);
+    if (terms.empty()) return;
+    throw InputError(
+        fmt::format("--where: the verifier knows only the corners and the region tag of each cell, "
+                    "and cannot evaluate {}",
+                    text_of(terms.front())));
+}
+
 void check_regions(const SelectionOptions& options, std::span<const Marker> of_cells,
                    const ProcessGroup& processes) {
+    for (const SelectionOptions& other : options.narrowed_by) {
+        check_regions(other, of_cells, processes);
+    }
     if (std::ranges::none_of(options.regions, is_tag)) return;
     const auto tags = processes.transaction([&] { return tags_of_all(of_cells, processes); });
     if (tags.empty()) throw InputError("--region: the cells of this mesh have no region tags");
@@ -179,6 +253,9 @@ void complete_selection(Selection& selection, const SelectionOptions& options,
     if (!options.cells_file.empty()) {
         selection.cells = read_cell_list(options.cells_file, mesh.index_base, mesh.cells);
     }
+    for (std::size_t k = 0; k < options.narrowed_by.size(); ++k) {
+        complete_selection(selection.narrowed_by[k], options.narrowed_by[k], mesh);
+    }
 }
 
 void complete_selection(Selection& selection, const SelectionOptions& options,
@@ -186,6 +263,7 @@ void complete_selection(Selection& selection, const SelectionOptions& options,
     processes.on_first([&] { complete_selection(selection, options, mesh); });
     processes.broadcast(selection.cells);
     processes.broadcast(selection.regions);
+    for (Selection& other : selection.narrowed_by) processes.broadcast(other.regions);
 }
 
 }  // namespace octetra::cli

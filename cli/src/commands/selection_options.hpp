@@ -19,7 +19,8 @@ class App;
 
 namespace octetra::cli {
 
-/// The options of a subcommand that mark cells, as given.
+/// The options of a subcommand that mark cells, as given: the criteria before the first --and, once
+/// group_criteria() was called.
 struct SelectionOptions {
     bool all = false;
     std::string cells_file;
@@ -29,11 +30,18 @@ struct SelectionOptions {
     std::optional<double> random;
     std::optional<std::uint64_t> seed;
     std::optional<double> max_volume;
+    std::vector<std::string> where;
+    std::vector<SelectionOptions> narrowed_by;  ///< the criteria after each --and
 };
 
 /// Declares them under the heading `group` of the help.
 void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
                            const std::string& group);
+
+/// Assigns the criteria to the groups that --and separates, in the order of the command line.
+/// `subcommand` has parsed the options. Throws InputError if a group is empty, or --cells was given
+/// with --and.
+void group_criteria(const CLI::App& subcommand, SelectionOptions& options);
 
 /// Returns whether any criterion was given.
 [[nodiscard]] bool has_criterion(const SelectionOptions& options);
@@ -42,6 +50,12 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
 /// given by name are omitted. Throws InputError, which states the purpose of the criteria.
 [[nodiscard]] Selection parse_selection(const SelectionOptions& options,
                                         std::string_view wanted = "which cells to refine");
+
+/// Returns whether the verifier can evaluate the selection: its expressions use only the corners
+/// and the region tag of a cell.
+[[nodiscard]] bool can_verify(const Selection& selection);
+/// Throws InputError if it cannot.
+void check_verifiable(const Selection& selection);
 
 /// The facts of a mesh that a selection refers to.
 struct SelectableMesh {

@@ -70,6 +70,7 @@ Coarsened coarsened_of(const VerifyCommandOptions& given) {
     const RefinementOptions& typed = given.refinement;
     Coarsened asked{given.before, {typed.selection, given.outside, typed.levels}, {}};
     asked.selection = parse_coarsening(asked.typed);
+    check_verifiable(asked.selection);
     return asked;
 }
 
@@ -81,6 +82,7 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
     if (given.before.empty() && has_criterion(given.refinement.selection)) {
         options.request = {parse_selection(given.refinement.selection),
                            parse_scheme(given.refinement), given.refinement.levels};
+        check_verifiable(options.request->selection);
     }
     const std::string& fine = given.before.empty() ? given.second : given.first;
     const std::string no_place = "the format of the fine mesh cannot hold them";
@@ -284,6 +286,7 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
     command->callback([options, command, world] {
         options->has_refinement_options = has_refinement_options(*command);
         options->has_scheme = was_given(*command, "scheme");
+        group_criteria(*command, options->refinement.selection);
         if (!run(*options, world)) throw NegativeAnswer{};
     });
 }

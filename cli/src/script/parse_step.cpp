@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -18,6 +17,28 @@
 namespace octetra::cli {
 namespace {
 
+constexpr std::string_view blanks = " \t\r\v\f";
+
+/// Returns the word that begins at `at`, and moves `at` behind it. As in a shell, blanks between
+/// quotation marks are part of the word, and the marks are not.
+std::string word_at(std::string_view line, std::size_t& at) {
+    std::string word;
+    while (at < line.size() && blanks.find(line[at]) == std::string_view::npos) {
+        const char c = line[at++];
+        if (c != '"' && c != '\'') {
+            word += c;
+            continue;
+        }
+        const std::size_t end = line.find(c, at);
+        if (end == std::string_view::npos) {
+            throw InputError(fmt::format("the closing quotation mark {} is missing", c));
+        }
+        word += line.substr(at, end - at);
+        at = end + 1;
+    }
+    return word;
+}
+
 std::vector<std::string> words_of(std::string_view line) {
     const auto is_control = [](char c) {
         return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f;
@@ -25,9 +46,11 @@ std::vector<std::string> words_of(std::string_view line) {
     if (std::ranges::any_of(line, is_control)) {
         throw InputError("there is a control character in this line: not a text file?");
     }
-    std::istringstream in{std::string(line)};
     std::vector<std::string> words;
-    for (std::string word; in >> word;) words.push_back(std::move(word));
+    for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
+        words.push_back(word_at(line, at));
+        at = line.find_first_not_of(blanks, at);
+    }
     return words;
 }
 
@@ -71,6 +94,7 @@ Step parse_refine(std::vector<std::string> options) {
     add_refinement_options(command, step.typed, "");
     add_closure_option(command, step.typed);
     parse_words(command, std::move(options));
+    group_criteria(command, step.typed.selection);
     step.selection = parse_selection(step.typed.selection);
     step.scheme = parse_scheme(step.typed);
     step.closure = parse_closure(step.typed);
@@ -82,6 +106,7 @@ Step parse_coarsen(std::vector<std::string> options) {
     CoarsenStep step;
     add_coarsening_options(command, step.typed, "");
     parse_words(command, std::move(options));
+    group_criteria(command, step.typed.selection);
     step.selection = parse_coarsening(step.typed);
     return step;
 }
@@ -94,8 +119,9 @@ Step parse_rebalance(const std::vector<std::string>& words) {
 std::string only_name(const std::vector<std::string>& words, std::string_view word,
                       std::string_view example) {
     if (words.size() == 1) return words.front();
-    throw InputError(fmt::format("{} takes one word, the name of a file without blanks: {} {}",
-                                 word, word, example));
+    throw InputError(
+        fmt::format("{} takes the name of one file, in quotation marks if it has blanks: {} {}",
+                    word, word, example));
 }
 
 Step parse_write(const std::vector<std::string>& words) {

@@ -11,6 +11,7 @@
 #include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/read_parts.hpp>
 
+#include "adapt/marked_cells.hpp"
 #include "adapt/marks.hpp"
 #include "adapt/mesh_state.hpp"
 #include "numbering/cell_numbers.hpp"
@@ -93,7 +94,7 @@ Adaptation AdaptiveMesh::refine(std::span<const CellIndex> marked, const StepOpt
 }
 
 Adaptation AdaptiveMesh::refine(const Selection& selection, const StepOptions& options) {
-    return state_->refine([&] { return mark_cells(state_->mesh, selection, false); }, options);
+    return state_->refine(marks_of(*state_, selection), options);
 }
 
 Adaptation AdaptiveMesh::refine_edges(std::span<const EdgeVertices> marked,
@@ -109,8 +110,7 @@ EvenStep AdaptiveMesh::refine_evenly(std::span<const std::uint8_t> marks,
 
 EvenStep AdaptiveMesh::refine_evenly(const Selection& selection, const BalanceOptions& balance,
                                      const StepOptions& options) {
-    return refine_state_evenly(
-        *state_, [&] { return mark_cells(state_->mesh, selection, false); }, balance, options);
+    return refine_state_evenly(*state_, marks_of(*state_, selection), balance, options);
 }
 
 Adaptation AdaptiveMesh::coarsen(std::span<const std::uint8_t> may_coarsen) {
@@ -122,7 +122,7 @@ Adaptation AdaptiveMesh::coarsen(std::span<const CellIndex> may_coarsen) {
 }
 
 Adaptation AdaptiveMesh::coarsen(const Selection& may_coarsen) {
-    return coarsen_state(*state_, [&] { return mark_cells(state_->mesh, may_coarsen, false); });
+    return coarsen_state(*state_, marks_of(*state_, may_coarsen));
 }
 
 Migration AdaptiveMesh::rebalance(const BalanceOptions& options) {

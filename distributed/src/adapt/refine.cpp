@@ -6,13 +6,16 @@
 #include <optional>
 #include <utility>
 
+#include <octetra/core/select_cells.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/even_level.hpp"
+#include "adapt/marks.hpp"
 #include "adapt/step_options.hpp"
 #include "level/planned_level.hpp"
 #include "level/tuning.hpp"
+#include "select/select_cells.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -85,10 +88,14 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
     }
     note_cells(mesh.processes, 0, mesh.cells.size(), 0);
     RefineOptions of_level = options;
+    if (of_level.balance && uses_history(selection)) of_level.balance->may_forget_history = false;
     std::uint64_t accumulated_idle = 0;
     for (int level = 1; level <= options.levels; ++level) {
         const Phase phase(mesh.processes, "level", level);
-        const auto mark = [&] { return mark_cells(mesh, selection, level > 1); };
+        const auto mark = [&] {
+            if (!is_compound(selection)) return mark_cells(mesh, selection, level > 1);
+            return marked_by_bytes(mesh, select_cells(mesh, selection));
+        };
         of_level.is_last = options.is_last && level == options.levels;
         if (!refine_level(mesh, std::ref(mark), of_level, tuning, level, accumulated_idle, total)) {
             break;  // nor would any later level change anything

@@ -31,7 +31,7 @@ set_system() {
                      dpkg --extract libopenmpi-dev_*.deb / && rm libopenmpi-dev_*.deb"')
             packages=(ccache cmake ninja-build python3 openmpi-bin g++-aarch64-linux-gnu qemu-user
                 nlohmann-json3-dev libcli11-dev libopenmpi40:arm64
-                {libfmt,libhdf5,libxxhash,libboost,libmetis,libcgal,libtet1.5,zlib1g}-dev:arm64)
+                {libfmt,libhdf5,libxxhash,libmuparser,libboost,libmetis,libcgal,libtet1.5,zlib1g}-dev:arm64)
             ;;
     esac
 }

@@ -7,6 +7,7 @@
 
 #include <octetra/core/edge_order.hpp>
 #include <octetra/core/error.hpp>
+#include <octetra/core/select_cells.hpp>
 
 namespace octetra::verify {
 namespace {
@@ -120,12 +121,22 @@ std::vector<char> marked_cells(const Lineage& lineage, const Mesh& input,
         }
         marked[static_cast<std::size_t>(c)] = 1;
     }
-    for (std::size_t c = 0; c < present.size(); ++c) {
-        Corners corners;
-        for (std::size_t k = 0; k < 4; ++k) corners[k] = lineage.points[present[c].vertices[k]];
+    const auto cell_to_test = [&](std::size_t c) {
+        CellToTest cell;
+        for (std::size_t k = 0; k < 4; ++k)
+            cell.corners[k] = lineage.points[present[c].vertices[k]];
         const CellIndex root = present[c].root;
-        const Marker region = input.regions.empty() ? 0 : input.regions[root];
-        if (marks(criteria, corners, region, GlobalCell{root.value()})) marked[c] = 1;
+        cell.region = input.regions.empty() ? 0 : input.regions[root];
+        cell.root = GlobalCell{root.value()};
+        return cell;
+    };
+    const SelectedCells selected = select_cells(criteria, present.size(), cell_to_test, {});
+    if (!selected.undefined.empty()) {
+        const auto& [cell, expression] = std::ranges::min(selected.undefined);
+        refuse_undefined(criteria, expression, input.index_base + cell);
+    }
+    for (std::size_t c = 0; c < present.size(); ++c) {
+        if (selected.marks[c] != 0) marked[c] = 1;
         if (request.outside) marked[c] = marked[c] == 0 ? 1 : 0;
     }
     return marked;

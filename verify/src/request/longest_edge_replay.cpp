@@ -88,8 +88,9 @@ private:
     }
 
     void mark_edges() {
+        const std::vector<std::uint8_t> marks = asked_.marks_of(cells_);
         for (std::size_t c = 0; c < cells_.size(); ++c) {
-            if (!asked_.is_marked(cells_[c])) continue;
+            if (marks[c] == 0) continue;
             switch (asked_.request().scheme) {
                 case Scheme::eight:
                     for (const EdgeNumber e : cell_to_edges_[c]) mark(e);

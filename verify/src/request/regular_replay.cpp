@@ -38,11 +38,16 @@ private:
 
     /// Performs a level. Returns false if nothing was marked.
     bool refine_once() {
+        std::vector<DescendantCell> present;
+        cells_.for_each_cell(
+            [&](const DescendantCell& cell, auto&&...) { present.push_back(cell); });
+        const std::vector<std::uint8_t> marks = asked_.marks_of(present);
         std::vector<RegularCells::CellNumber> regular;
         std::vector<MarkedTransitionCell> transition;
+        std::size_t next = 0;
         cells_.for_each_cell(
             [&](const DescendantCell& cell, RegularCells::CellNumber c, bool is_transition) {
-                if (!asked_.is_marked(cell)) return;
+                if (marks[next++] == 0) return;
                 regular.push_back(c);
                 if (is_transition) transition.push_back({c, cell.vertices});
             });

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <octetra/core/error.hpp>
+#include <octetra/core/select_cells.hpp>
+
 #include "parts/exchange.hpp"
 
 namespace octetra::verify {
@@ -21,12 +24,23 @@ std::vector<DescendantCell> RequestedRefinement::coarse_cells() const {
     return cells;
 }
 
-bool RequestedRefinement::is_marked(const DescendantCell& cell) const {
-    Corners corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = fine_.mesh.points[cell.vertices[k]];
-    const auto& regions = coarse_.mesh.regions;
-    const GlobalCell number{findings_.numbers(Which::coarse).of(cell.root).value()};
-    return marks(request_.selection, corners, regions.empty() ? 0 : regions[cell.root], number);
+std::vector<std::uint8_t> RequestedRefinement::marks_of(
+    std::span<const DescendantCell> cells) const {
+    const auto cell_to_test = [&](std::size_t i) {
+        CellToTest cell;
+        for (std::size_t k = 0; k < 4; ++k) {
+            cell.corners[k] = fine_.mesh.points[cells[i].vertices[k]];
+        }
+        const CellIndex root = cells[i].root;
+        cell.region = coarse_.mesh.regions.empty() ? 0 : coarse_.mesh.regions[root];
+        cell.root = GlobalCell{findings_.numbers(Which::coarse).of(root).value()};
+        return cell;
+    };
+    SelectedCells selected = select_cells(request_.selection, cells.size(), cell_to_test, {});
+    if (any(group(), !selected.undefined.empty())) {
+        throw InputError("an expression of the selection has no value in a cell");
+    }
+    return std::move(selected.marks);
 }
 
 std::vector<EdgeVertices> RequestedRefinement::exchange_edges(

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,8 +45,8 @@ public:
     [[nodiscard]] const ProcessGroup& group() const { return findings_.group(); }
 
     [[nodiscard]] std::vector<DescendantCell> coarse_cells() const;
-    /// Returns whether the selection marks a cell.
-    [[nodiscard]] bool is_marked(const DescendantCell& cell) const;
+    /// Collective. Returns for each cell whether the selection marks it.
+    [[nodiscard]] std::vector<std::uint8_t> marks_of(std::span<const DescendantCell> cells) const;
     /// Collective. Sends edges to the processes that may have them in view. Returns those received
     /// of which this process has both ends.
     [[nodiscard]] std::vector<EdgeVertices> exchange_edges(

@@ -148,7 +148,8 @@ public:
     /// The same for a list of cells, in any order, as local numbers.
     Adaptation refine(std::span<const CellIndex> marked, const StepOptions& options = {});
     /// The same for cells that the criteria of the command line mark. Its cell numbers are those of
-    /// the input.
+    /// the input. Expressions must be the same on all processes, and have no fields: see
+    /// marked_cells().
     Adaptation refine(const Selection& selection, const StepOptions& options = {});
     /// Collective. Performs one step that bisects these edges, each of some cell of this process,
     /// with closure. At least one of the sharers of an edge must list it.
@@ -172,6 +173,17 @@ public:
     /// The same for a list of cells, in any order, or for cells that the criteria mark.
     Adaptation coarsen(std::span<const CellIndex> may_coarsen);
     Adaptation coarsen(const Selection& may_coarsen);
+
+    /// Collective. Returns a byte for each cell of this process: 1 if the selection marks it, else
+    /// 0. The same cells are marked on any number of processes. `fields`, values of this mesh's
+    /// vertices and cells, are those that expressions may use; on a vertex that several processes
+    /// have, the owner's value counts. The expressions must be the same on all processes.
+    ///
+    /// Throws InputError on all processes if a criterion is invalid, if an expression has no value
+    /// in some cell (0/0, sqrt(-1)) or uses a field or marker that does not exist, the generation
+    /// while has_forgotten_history(), or if fields do not fit the mesh.
+    [[nodiscard]] std::vector<std::uint8_t> marked_cells(const Selection& selection,
+                                                         std::span<const Field> fields = {}) const;
 
     /// Collective. Migrates cells from processes with many to processes with few, if the numbers
     /// are too different and migration improves them. A cell of the input migrates with all its

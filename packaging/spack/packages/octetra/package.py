@@ -42,6 +42,7 @@ class Octetra(CMakePackage):
     depends_on("hdf5~mpi")
     depends_on("boost")  # headers only
     depends_on("xxhash")  # headers only
+    depends_on("muparser")
     with when("+distributed"):
         depends_on("mpi")
         depends_on("metis@5:~int64")

@@ -1,4 +1,4 @@
-#include <octetra/quality/shape.hpp>
+#include <octetra/core/shape.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <octetra/core/edge_order.hpp>
 #include <octetra/core/mesh.hpp>
 
-namespace octetra::quality {
+namespace octetra {
 namespace {
 
 Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -116,4 +116,4 @@ double mean_ratio(const Corners& corners) {
     return std::min(1.0, std::cbrt(432.0) * root * root / squares);
 }
 
-}  // namespace octetra::quality
+}  // namespace octetra

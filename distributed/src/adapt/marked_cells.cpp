@@ -1,0 +1,52 @@
+#include "adapt/marked_cells.hpp"
+
+#include <cstdint>
+#include <vector>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/select_cells.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "adapt/marks.hpp"
+#include "output/check_fields.hpp"
+#include "select/select_cells.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// Collective, within a transaction.
+std::vector<std::uint8_t> select(const AdaptiveMesh::State& state, const Selection& selection,
+                                 std::span<const Field> fields) {
+    if (!state.forgotten.empty() && uses_history(selection)) {
+        throw InputError(
+            "generation needs the history of the mesh, which was forgotten when cells moved: "
+            "recall it, or do not allow this");
+    }
+    return select_cells(state.mesh, selection, {fields, &state.sharing});
+}
+
+}  // namespace
+
+std::function<MarkedCells()> marks_of(const AdaptiveMesh::State& state,
+                                      const Selection& selection) {
+    // Processes with different selections must not call different collective functions.
+    const bool is_compound_here = is_compound(selection);
+    if (state.mesh.processes.max(is_compound_here ? 1 : 0) == 0) {
+        return [&] { return mark_cells(state.mesh, selection, false); };
+    }
+    return [&] { return marked_by_bytes(state.mesh, select(state, selection, {})); };
+}
+
+std::vector<std::uint8_t> AdaptiveMesh::marked_cells(const Selection& selection,
+                                                     std::span<const Field> fields) const {
+    const StandardArithmetic standard;
+    const Phase phase(processes(), "select");
+    return processes().transaction([&] {
+        check_sizes(state_->mesh, fields);
+        check_same(processes(), fields);
+        return select(*state_, selection, fields);
+    });
+}
+
+}  // namespace octetra::distributed

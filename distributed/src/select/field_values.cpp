@@ -1,0 +1,93 @@
+#include "select/field_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include <octetra/core/cell_quantities.hpp>
+#include <octetra/core/mean_of_four.hpp>
+#include <octetra/distributed/estimator_marks.hpp>
+#include <octetra/distributed/exchange.hpp>
+
+namespace octetra::distributed {
+namespace {
+
+/// Returns the field with the name of the term; one on cells precedes one on vertices.
+const Field& find_field(const Term& term, std::span<const Field> fields) {
+    for (const FieldOn on : {FieldOn::cells, FieldOn::vertices}) {
+        for (const Field& field : fields) {
+            if (field.on == on && field.name == term.name) return field;
+        }
+    }
+    std::vector<std::string> names;
+    for (const Field& field : fields) names.push_back(field.name);
+    refuse_field(term, names);
+}
+
+/// Returns a number for each entity: the value, or the length of the vector of the components.
+std::vector<double> numbers_of(const Field& field) {
+    return std::visit(
+        [&](const auto& values) {
+            std::vector<double> numbers;
+            numbers.reserve(values.size() / field.components);
+            for (std::size_t i = 0; i < values.size(); i += field.components) {
+                if (field.components == 1) {
+                    numbers.push_back(static_cast<double>(values[i]));
+                    continue;
+                }
+                double squares = 0;
+                for (std::size_t k = i; k < i + field.components; ++k) {
+                    const auto value = static_cast<double>(values[k]);
+                    squares += value * value;
+                }
+                numbers.push_back(std::sqrt(squares));
+            }
+            return numbers;
+        },
+        field.values);
+}
+
+std::vector<double> maxima_of(const DistributedMesh& mesh, const std::vector<double>& of_vertex) {
+    std::vector<double> of_cell;
+    of_cell.reserve(mesh.cells.size());
+    for (const auto& [a, b, c, d] : mesh.cells) {
+        const std::array<double, 4> values{of_vertex[a.value()], of_vertex[b.value()],
+                                           of_vertex[c.value()], of_vertex[d.value()]};
+        const auto nan = std::ranges::find_if(values, [](double v) { return std::isnan(v); });
+        of_cell.push_back(nan != values.end() ? *nan : std::ranges::max(values));
+    }
+    return of_cell;
+}
+
+std::vector<double> means_of(const DistributedMesh& mesh, const std::vector<double>& of_vertex) {
+    std::vector<double> of_cell;
+    of_cell.reserve(mesh.cells.size());
+    for (const auto& [a, b, c, d] : mesh.cells) {
+        of_cell.push_back(mean_of_four(of_vertex[a.value()], of_vertex[b.value()],
+                                       of_vertex[c.value()], of_vertex[d.value()]));
+    }
+    return of_cell;
+}
+
+}  // namespace
+
+std::vector<double> field_values(const DistributedMesh& mesh, const Term& term,
+                                 const FieldsToUse& given) {
+    const Field& field = find_field(term, given.fields);
+    std::vector<double> values = numbers_of(field);
+    if (field.on == FieldOn::vertices) {
+        update_copies(mesh.processes, *given.sharing, mesh.points.size(), values);
+        values =
+            term.quantity == Quantity::field_max ? maxima_of(mesh, values) : means_of(mesh, values);
+    }
+    if (term.quantity == Quantity::field || term.quantity == Quantity::field_max) return values;
+    const std::vector<std::uint8_t> marks = term.quantity == Quantity::bulk
+                                                ? mark_bulk(mesh.processes, values, term.share)
+                                                : mark_fraction(mesh.processes, values, term.share);
+    return {marks.begin(), marks.end()};
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octetra/core/selection.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/field.hpp>
+#include <octetra/distributed/sharing.hpp>
+
+namespace octetra::distributed {
+
+/// The values of a mesh that expressions may use.
+struct FieldsToUse {
+    std::span<const Field> fields;  ///< they match the mesh, and are the same on all processes
+    const Sharing<VertexIndex>* sharing = nullptr;  ///< of the mesh, if there are fields
+};
+
+/// Collective, within a transaction. Returns a byte for each cell of this process: 1 if the
+/// selection, which must be the same on all processes, marks it, else 0. See
+/// AdaptiveMesh::marked_cells() for the errors.
+[[nodiscard]] std::vector<std::uint8_t> select_cells(const DistributedMesh& mesh,
+                                                     const Selection& selection,
+                                                     const FieldsToUse& fields = {});
+
+}  // namespace octetra::distributed

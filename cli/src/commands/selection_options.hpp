@@ -30,7 +30,10 @@ struct SelectionOptions {
     std::optional<double> random;
     std::optional<std::uint64_t> seed;
     std::optional<double> max_volume;
-    std::vector<std::string> where;
+    std::vector<std::string> where;  ///< group_criteria() adds the next three, as expressions
+    std::vector<std::string> bulk;
+    std::vector<std::string> fraction;
+    std::vector<std::string> above;
     std::vector<SelectionOptions> narrowed_by;  ///< the criteria after each --and
 };
 

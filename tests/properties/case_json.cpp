@@ -32,6 +32,8 @@ json json_of(const Selection& selection) {
         j["random"] = {{"fraction", selection.random->fraction}, {"seed", selection.random->seed}};
     }
     if (selection.max_volume) j["max_volume"] = *selection.max_volume;
+    for (const Expression& expression : selection.where) j["where"].push_back(expression.text());
+    for (const Selection& other : selection.narrowed_by) j["and"].push_back(json_of(other));
     return j;
 }
 
@@ -52,6 +54,10 @@ Selection selection_of(const json& j) {
         selection.random = RandomShare{j["random"].at("fraction"), j["random"].at("seed")};
     }
     if (j.contains("max_volume")) selection.max_volume = j["max_volume"].get<double>();
+    for (const json& text : list(j, "where")) {
+        selection.where.emplace_back(text.get<std::string>());
+    }
+    for (const json& other : list(j, "and")) selection.narrowed_by.push_back(selection_of(other));
     return selection;
 }
 

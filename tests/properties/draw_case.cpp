@@ -1,8 +1,12 @@
 #include "properties/draw_case.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+#include <string>
+
+#include <fmt/format.h>
 
 #include <octetra/core/edge_order.hpp>
 #include <octetra/core/error.hpp>
@@ -25,6 +29,19 @@ CellIndex any_cell(const Mesh& mesh, Draw& draw) {
 double extent(const Mesh& mesh) {
     const auto [low, high] = std::ranges::minmax(mesh.points, {}, &Point::x);
     return high.x - low.x;
+}
+
+/// An expression that marks some cells.
+std::string some_expression(const Mesh& mesh, Draw& draw) {
+    const Corners corners = test::corners_of(mesh, any_cell(mesh, draw));
+    const Point p = centroid(corners);
+    const std::array<std::string, 6> tests{
+        fmt::format("x < {}", p.x),       fmt::format("y >= {} or region == 1", p.y),
+        fmt::format("not z > {}", p.z),   fmt::format("volume > {}", volume(corners)),
+        "min_dihedral < 40 or eta > 0.8", "longest > 1.7 * shortest"};
+    const std::string& one = tests[draw.below(tests.size())];
+    const std::string& other = tests[draw.below(tests.size())];
+    return draw.chance(0.5) ? one : fmt::format("({}) and ({})", one, other);
 }
 
 double longest_side(const Corners& corners) {
@@ -150,6 +167,7 @@ void add_criterion(Selection& selection, const Mesh& mesh, Draw& draw) {
             selection.max_volume = volume(corners) * (0.25 + draw.unit());
             return;
         }
+        case 6: selection.where.emplace_back(some_expression(mesh, draw)); return;
         default: selection.cells = some_numbers(mesh, draw);
     }
 }
@@ -159,6 +177,9 @@ Case draw_case(Draw& draw, int size, int ranks, bool exact) {
     Case c{.kind = std::move(drawn.kind), .mesh = std::move(drawn.mesh)};
     add_criterion(c.selection, c.mesh, draw);
     if (draw.chance(0.2)) add_criterion(c.selection, c.mesh, draw);
+    if (!c.selection.all && draw.chance(0.1)) {
+        c.selection.narrowed_by.push_back({.where = {Expression(some_expression(c.mesh, draw))}});
+    }
     if (exact) {
         for (Sphere& sphere : c.selection.spheres) sphere.radius = std::ceil(sphere.radius);
     }

@@ -44,8 +44,9 @@ Case mapped(const Case& c, const Map& map, double factor) {
 
 std::string fault_of_map(const Case& c, const Map& map, double factor) {
     Case plain = c;
-    if (plain.selection.random)
-        plain.selection = by_number(plain);  // random criteria use coordinates
+    const Selection& s = plain.selection;
+    // Random criteria and expressions use coordinates.
+    if (s.random || !s.where.empty() || !s.narrowed_by.empty()) plain.selection = by_number(plain);
     const Outcome one = refined_by_all(plain);
     const Outcome other = refined_by_all(mapped(plain, map, factor));
     if (!one.error.empty() || !other.error.empty()) return one.error + other.error;

@@ -66,7 +66,8 @@ void add_fewer_cells(Simplifications& all, const Shared& c) {
 void add_fewer_criteria(Simplifications& all, const Shared& c) {
     const Selection& s = c->selection;
     const bool by_number_alone = !s.all && s.spheres.empty() && s.boxes.empty() &&
-                                 s.regions.empty() && !s.random && !s.max_volume;
+                                 s.regions.empty() && !s.random && !s.max_volume &&
+                                 s.where.empty() && s.narrowed_by.empty();
     if (by_number_alone) {
         for_each_chunk(s.cells.size(), [&](std::size_t begin, std::size_t end) {
             add(all, c, [=](Case& r) {
@@ -90,6 +91,8 @@ void add_fewer_criteria(Simplifications& all, const Shared& c) {
     if (!s.regions.empty()) add(all, c, [](Case& r) { r.selection.regions.clear(); });
     if (s.random) add(all, c, [](Case& r) { r.selection.random.reset(); });
     if (s.max_volume) add(all, c, [](Case& r) { r.selection.max_volume.reset(); });
+    if (!s.where.empty()) add(all, c, [](Case& r) { r.selection.where.clear(); });
+    if (!s.narrowed_by.empty()) add(all, c, [](Case& r) { r.selection.narrowed_by.clear(); });
 }
 
 void add_fewer_ranks(Simplifications& all, const Shared& c) {

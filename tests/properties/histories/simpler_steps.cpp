@@ -39,6 +39,8 @@ std::vector<Selection> with_fewer_criteria(const Selection& selection) {
     add(!selection.regions.empty(), [](Selection& s) { s.regions.clear(); });
     add(selection.random.has_value(), [](Selection& s) { s.random.reset(); });
     add(selection.max_volume.has_value(), [](Selection& s) { s.max_volume.reset(); });
+    add(!selection.where.empty(), [](Selection& s) { s.where.clear(); });
+    add(!selection.narrowed_by.empty(), [](Selection& s) { s.narrowed_by.clear(); });
     return results;
 }
 

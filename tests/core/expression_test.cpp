@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <locale>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -141,6 +142,32 @@ TEST(Expression, OfAnyLengthAndNestingIsReadOrRefused) {
     EXPECT_TRUE(is_true(repeated("x + ", 990) + "x == 991"));
     EXPECT_TRUE(is_true(repeated("1 ^ ", 990) + "1 == 1"));
     EXPECT_TRUE(is_true("max(" + repeated("x, ", 1000) + "2) == 2"));
+}
+
+TEST(Expression, OfRandomWordsIsRefusedOrEvaluated) {
+    const std::vector<std::string> words{
+        "x", "region", "1", "2.5", "1e3", "(",  ")",   "(",   ")", ",",   "+",    "-",
+        "*", "^",      "<", "==",  "and", "or", "not", "not", "-", "max", "sqrt", "abs"};
+    std::mt19937_64 random(3);
+    int accepted = 0;
+    for (int i = 0; i < 200000; ++i) {
+        std::string text;
+        for (std::size_t k = 1 + random() % 9; k > 0; --k) {
+            text += words[random() % words.size()] + (random() % 2 == 0 ? " " : "");
+        }
+        std::optional<Expression> expression;
+        try {
+            expression.emplace(text);
+        } catch (const InputError& error) {
+            ASSERT_THAT(error.what(), testing::StartsWith("column ")) << text;
+            continue;
+        }
+        ++accepted;
+        const auto cell = [](std::size_t) { return CellToTest{unit, 0, GlobalCell{0}}; };
+        const Selection selection{.where = {*expression}};
+        ASSERT_NO_THROW((void)select_cells(selection, 1, cell, {})) << text;
+    }
+    EXPECT_GT(accepted, 1000);
 }
 
 struct Comma : std::numpunct<char> {

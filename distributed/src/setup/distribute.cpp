@@ -44,8 +44,9 @@ std::pair<Facts, std::vector<GroupName>> broadcast_facts(const Communicator& pro
                                                          const Mesh& mesh) {
     std::vector<char> bytes;
     const auto put = [&](const void* data, std::size_t size) {
-        const auto* first = static_cast<const char*>(data);
-        bytes.insert(bytes.end(), first, first + size);
+        const std::size_t end = bytes.size();
+        bytes.resize(end + size);
+        std::memcpy(bytes.data() + end, data, size);
     };
     struct NameHead {
         std::int32_t dimension;

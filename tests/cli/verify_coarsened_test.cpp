@@ -119,7 +119,8 @@ TEST_F(VerifyCoarsened, AcceptsTheOptionsOfCoarsenAndNoOthers) {
     const std::string from = " --coarsened-from fine.octetra";
     expect_refused("m.ele" + from,
                    "specify which cells to coarsen: --all, --cells, --sphere, --box, --region, "
-                   "--random, --max-volume, --where, --bulk, --fraction or --above");
+                   "--random, --max-volume, --size, --near, --min-eta, --bulk, --fraction, "
+                   "--above or --where");
     expect_refused("m.ele --coarsened-from m.ele --all",
                    "--coarsened-from: m.ele has no history: it takes a .octetra file, as octetra "
                    "coarsen does");

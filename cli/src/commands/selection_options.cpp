@@ -17,6 +17,7 @@
 #include <octetra/core/files/lists.hpp>
 #include <octetra/core/select_cells.hpp>
 
+#include "commands/abbreviations.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
 #include "parse_numbers.hpp"
@@ -135,24 +136,15 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         ->type_name("EXPRESSION")
         ->allow_extra_args(false)
         ->group(group);
-    subcommand
-        .add_option(
-            "--bulk", options.bulk,
-            "cells with the largest values of a field that have the fraction THETA of their\n"
-            "sum (Doerfler marking)")
-        ->type_name("NAME,THETA")
-        ->allow_extra_args(false)
-        ->group(group);
-    subcommand
-        .add_option("--fraction", options.fraction,
-                    "this fraction of the cells, those with the largest values of a field")
-        ->type_name("NAME,SHARE")
-        ->allow_extra_args(false)
-        ->group(group);
-    subcommand.add_option("--above", options.above, "cells with a value of a field above VALUE")
-        ->type_name("NAME,VALUE")
-        ->allow_extra_args(false)
-        ->group(group);
+    for (const Abbreviation& abbreviation : abbreviations()) {
+        const std::string name(abbreviation.option);
+        subcommand
+            .add_option("--" + name, options.abbreviated[name],
+                        std::string(abbreviation.description))
+            ->type_name(std::string(abbreviation.type))
+            ->allow_extra_args(false)
+            ->group(group);
+    }
     subcommand
         .add_flag_function(
             "--and", [](std::int64_t) {},
@@ -160,52 +152,6 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
             "criteria after it marks, too")
         ->group(group);
 }
-
-namespace {
-
-/// The arguments of a criterion by a field.
-struct FieldNumber {
-    std::string name;  ///< in quotation marks
-    double number = 0;
-};
-
-/// Parses NAME,NUMBER; the name may contain commas.
-FieldNumber parse_field_number(const std::string& option, const std::string& text,
-                               const Range<double>& range) {
-    const std::size_t comma = text.rfind(',');
-    if (comma == std::string::npos || comma == 0) {
-        throw InputError(
-            fmt::format("{} takes the name of a field and a number, as in {} eta,0.5, "
-                        "not '{}'",
-                        option, option, text));
-    }
-    const std::string name = text.substr(0, comma);
-    const char quote = name.find('"') == std::string::npos ? '"' : '\'';
-    if (name.find(quote) != std::string::npos) {
-        throw InputError(
-            fmt::format("{}: the name of a field has both kinds of quotation marks", option));
-    }
-    return {fmt::format("{}{}{}", quote, name, quote),
-            parse_number<double>(option, std::string_view(text).substr(comma + 1), range)};
-}
-
-/// The expression of --bulk or --fraction.
-std::string marked_share(const std::string& function, const std::string& text) {
-    using Limits = std::numeric_limits<double>;
-    const auto [name, share] =
-        parse_field_number("--" + function, text, {Limits::min(), 1, "above 0, at most 1"});
-    return fmt::format("{}({}, {})", function, name, share);
-}
-
-/// The expression of --above.
-std::string value_above(const std::string& text) {
-    using Limits = std::numeric_limits<double>;
-    const auto [name, limit] =
-        parse_field_number("--above", text, {Limits::lowest(), Limits::max(), "of any size"});
-    return fmt::format("field({}) > {}", name, limit);
-}
-
-}  // namespace
 
 void group_criteria(const CLI::App& subcommand, SelectionOptions& options) {
     std::vector<SelectionOptions> groups(1);
@@ -231,10 +177,10 @@ void group_criteria(const CLI::App& subcommand, SelectionOptions& options) {
         if (name == "seed") group.seed = options.seed;
         if (name == "max-volume") group.max_volume = options.max_volume;
         if (name == "where") take_next(group.where, options.where);
-        if (name == "bulk") group.where.push_back(marked_share(name, next_of(options.bulk)));
-        if (name == "fraction")
-            group.where.push_back(marked_share(name, next_of(options.fraction)));
-        if (name == "above") group.where.push_back(value_above(next_of(options.above)));
+        for (const Abbreviation& abbreviation : abbreviations()) {
+            if (name != abbreviation.option) continue;
+            group.where.push_back(abbreviation.expression(next_of(options.abbreviated[name])));
+        }
     }
     if (groups.size() > 1) {
         if (!std::ranges::all_of(groups, has_criterion)) {
@@ -271,10 +217,10 @@ Selection parse_selection(const SelectionOptions& options, std::string_view want
     selection.max_volume = options.max_volume;
     for (const std::string& text : options.where) selection.where.push_back(parse_where(text));
     if (!has_criterion(options)) {
-        throw InputError(
-            fmt::format("specify {}: --all, --cells, --sphere, --box, --region, --random, "
-                        "--max-volume, --where, --bulk, --fraction or --above",
-                        wanted));
+        std::string names = "--all, --cells, --sphere, --box, --region, --random, --max-volume";
+        for (const Abbreviation& other : abbreviations())
+            names += fmt::format(", --{}", other.option);
+        throw InputError(fmt::format("specify {}: {} or --where", wanted, names));
     }
     for (const SelectionOptions& other : options.narrowed_by) {
         selection.narrowed_by.push_back(parse_selection(other, wanted));

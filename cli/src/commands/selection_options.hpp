@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,11 +31,9 @@ struct SelectionOptions {
     std::optional<double> random;
     std::optional<std::uint64_t> seed;
     std::optional<double> max_volume;
-    std::vector<std::string> where;  ///< group_criteria() adds the next three, as expressions
-    std::vector<std::string> bulk;
-    std::vector<std::string> fraction;
-    std::vector<std::string> above;
-    std::vector<SelectionOptions> narrowed_by;  ///< the criteria after each --and
+    std::vector<std::string> where;  ///< group_criteria() adds the expressions of the abbreviations
+    std::map<std::string, std::vector<std::string>> abbreviated;  ///< the values of each option
+    std::vector<SelectionOptions> narrowed_by;                    ///< the criteria after each --and
 };
 
 /// Declares them under the heading `group` of the help.

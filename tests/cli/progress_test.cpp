@@ -41,7 +41,7 @@ std::string output_at_slow_terminal(const std::string& arguments,
             ::kill(child, SIGSTOP);
             std::this_thread::sleep_for(1100ms);
             ::kill(child, SIGCONT);
-            std::this_thread::sleep_for(60ms);
+            std::this_thread::sleep_for(20ms);
         }
     });
     std::string seen;

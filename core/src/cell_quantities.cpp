@@ -135,8 +135,10 @@ void refuse_marker(const Term& term, const std::set<Marker>& markers,
     for (const GroupName& group : groups) {
         if (group.dimension == 2) names.push_back(group.name);
     }
-    throw InputError(fmt::format("{}: no facet has this marker; there are {}{}", text_of(term),
-                                 list_of(markers),
+    const bool is_number = term.name.find_first_not_of("-0123456789") == std::string::npos;
+    throw InputError(fmt::format("{}: no facet {}; there are {}{}", text_of(term),
+                                 is_number ? "has this marker" : "is in a group of this name",
+                                 is_number ? list_of(markers) : "the markers " + list_of(markers),
                                  names.empty() ? "" : ", with the names " + list_of(names)));
 }
 

@@ -176,6 +176,17 @@ TEST_P(LevelsOf, RandomStepsAreTheMeshesOfTheReferencesHistory) {
     }
 }
 
+TEST_P(LevelsOf, AMeshEndWithItsOwnListsInTheirOrder) {
+    const Levels levels = mesh.levels();
+    const LevelLists lists = levels.lists(levels.count() - 1);
+    EXPECT_TRUE(std::ranges::equal(lists.cells, mesh.cells()));
+    EXPECT_TRUE(lists.regions == mesh.regions());
+    EXPECT_TRUE(std::ranges::equal(lists.facets, mesh.facets()));
+    EXPECT_TRUE(lists.facet_markers == mesh.facet_markers());
+    EXPECT_TRUE(std::ranges::equal(lists.edges, mesh.edges()));
+    EXPECT_TRUE(lists.edge_markers == mesh.edge_markers());
+}
+
 TEST_P(LevelsOf, AMeshGrowByTheFactorFromTheSecondOneOn) {
     for (const double growth : {1.0, 1.3, 1.7, 4.0, 1e300}) {
         const Levels levels = mesh.levels({.growth = growth});

@@ -213,9 +213,9 @@ TEST_P(MarkedCells, AreRefusedOnAllProcessesAlike) {
     };
     EXPECT_EQ(refused("distance(9) < 1"),
               "distance(9): no facet has this marker; there are 7, 8, with the names low side");
-    EXPECT_EQ(
-        refused("distance(inside) < 1"),
-        "distance(inside): no facet has this marker; there are 7, 8, with the names low side");
+    EXPECT_EQ(refused("distance(inside) < 1"),
+              "distance(inside): no facet is in a group of this name; there are the markers 7, 8, "
+              "with the names low side");
     EXPECT_EQ(refused("field(w) < 1"), "field(w): there is no such field; there are u, e, v");
     // The centroid of cell 0 is the first one with this property, in the order of files.
     EXPECT_EQ(refused("sqrt(x - 9) < 1"), "the expression has no value in cell 0: sqrt(x - 9) < 1");

@@ -18,6 +18,7 @@ def levels(mesh, request):
 def test_levels_are_nested_prefixes_that_grow(mesh, levels):
     assert levels[0].step == 0 and levels[-1].vertex_count == mesh.vertex_count
     assert np.array_equal(levels[-1].points, mesh.points)
+    assert np.array_equal(levels[-1].cells, mesh.cells)
     for coarse, fine in zip(levels, levels[1:]):
         n = len(coarse.points)
         assert np.array_equal(fine.points[:n], coarse.points)

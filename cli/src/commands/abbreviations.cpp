@@ -93,7 +93,7 @@ std::string fraction(const std::string& value) {
 
 std::string above(const std::string& value) {
     const auto [name, limit] =
-        parse_field_number("--above", value, {Limits::lowest(), Limits::max(), "of any size"});
+        parse_field_number("--above", value, {Limits::lowest(), Limits::max(), "of any size", ""});
     return fmt::format("field({}) > {}", name, limit);
 }
 

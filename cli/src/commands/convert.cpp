@@ -74,7 +74,7 @@ void check_drop_unused(const ConvertOptions& options) {
     if (!options.drop_unused) return;
     if (is_checkpoint(options.input.path)) {
         throw InputError(
-            fmt::format("--drop-unused: the history in {} numbers all vertices; drop "
+            fmt::format("--drop-unused: the steps and fields in {} refer to all vertices; drop "
                         "them from the input, before refinement",
                         options.input.path));
     }

@@ -8,6 +8,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/lists.hpp>
+#include <octetra/core/select_cells.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/predicted_cells.hpp>
@@ -75,6 +76,15 @@ std::vector<float> weights_of(const Mesh& mesh, const PartitionOptions& options)
             "--levels 2");
     }
     Selection selection = parse_selection(typed);
+    if (const auto terms = external_terms(selection); !terms.empty()) {
+        throw InputError(
+            fmt::format("partition: {} is not known before refinement, and cannot "
+                        "predict where cells become many",
+                        text_of(terms.front())));
+    }
+    if (!selection.where.empty()) {
+        note("expressions do not predict where cells become many: they do not affect the parts");
+    }
     check_regions(typed, mesh.regions, ProcessGroup::alone());
     complete_selection(selection, typed,
                        {mesh.index_base, mesh.cells.size(), SharedGroupNames(mesh.group_names)});

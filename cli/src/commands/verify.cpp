@@ -93,10 +93,10 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
         if (given.second.empty()) {
             throw InputError("verify: --closure regular requires COARSE and REFINED");
         }
-        if (options.request && is_checkpoint(given.first)) {
+        if (is_checkpoint(given.first) && !read_checkpoint_facts(given.first).steps.empty()) {
             throw InputError(fmt::format(
-                "verify: with --closure regular, a selection can be checked only if COARSE has no "
-                "history, unlike {}: refinement replaces its transition cells",
+                "verify: with --closure regular, COARSE must have no history, unlike {}: "
+                "refinement replaces its transition cells; pass the input of the history",
                 given.first));
         }
     }

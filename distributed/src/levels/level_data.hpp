@@ -21,6 +21,10 @@ struct Levels::Data {
 
     /// A copy of the mesh in canonical order, without interfaces; it cannot be refined.
     DistributedMesh finest;
+    /// The numbers that its entities have in the mesh; empty if they are the same.
+    std::vector<CellIndex> cells_before;
+    std::vector<FacetIndex> facets_before;
+    std::vector<EdgeIndex> edges_before;
     std::vector<GlobalVertex> vertex_numbers;
     std::vector<Level> levels;
 

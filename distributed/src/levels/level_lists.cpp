@@ -103,6 +103,16 @@ std::vector<Marker> markers_of(std::span<const Marker> of_roots,
     return markers;
 }
 
+/// Converts values in canonical order to the order of the numbers `before`, if there are any.
+template <class Values, class I>
+void to_order_before(Values& values, const std::vector<I>& before) {
+    if (before.empty() || values.empty()) return;
+    const Values ordered = values;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        values.data()[before[k].value()] = ordered.data()[k];
+    }
+}
+
 }  // namespace
 
 LevelLists Levels::lists(std::size_t level) const {
@@ -118,6 +128,14 @@ LevelLists Levels::lists(std::size_t level) const {
     take(finest.cells, finest.cell_ancestors, lists.cells, lists.regions);
     take(finest.facets, finest.facet_ancestors, lists.facets, lists.facet_markers);
     take(finest.edges, finest.edge_ancestors, lists.edges, lists.edge_markers);
+    if (level + 1 == count()) {
+        to_order_before(lists.cells, data_->cells_before);
+        to_order_before(lists.regions, data_->cells_before);
+        to_order_before(lists.facets, data_->facets_before);
+        to_order_before(lists.facet_markers, data_->facets_before);
+        to_order_before(lists.edges, data_->edges_before);
+        to_order_before(lists.edge_markers, data_->edges_before);
+    }
     return lists;
 }
 
@@ -129,6 +147,10 @@ LevelParents Levels::parents(std::size_t level) const {
     LevelParents result;
     for (const std::uint32_t parent : coarser.coarse_of) result.parents.emplace_back(parent);
     result.halvings = std::move(coarser.halvings);
+    if (level + 1 == count()) {
+        to_order_before(result.parents, data_->cells_before);
+        to_order_before(result.halvings, data_->cells_before);
+    }
     return result;
 }
 

@@ -17,22 +17,23 @@
 namespace octetra::distributed {
 namespace {
 
-/// Returns the lists and the history of a mesh, which determine all its levels.
-DistributedMesh finest_of(const DistributedMesh& mesh) {
+/// Copies the lists and the history of a mesh, which determine all its levels.
+void copy_finest(const DistributedMesh& mesh, Levels::Data& data) {
     const OrderedLists lists(mesh);
-    DistributedMesh finest;
+    DistributedMesh& finest = data.finest;
     finest.processes = mesh.processes;
     finest.points = mesh.points;
     finest.input_vertices = mesh.input_vertices;
     finest.level_begin = mesh.level_begin;
     finest.midpoint_to_edge = mesh.midpoint_to_edge;
-    finest.cells = lists.cells.list();
-    finest.cell_ancestors = lists.cells.ancestors();
-    finest.facets = lists.facets.list();
-    finest.facet_ancestors = lists.facets.ancestors();
-    finest.edges = lists.edges.list();
-    finest.edge_ancestors = lists.edges.ancestors();
-    return finest;
+    const auto copy = [](const auto& ordered, auto& list, AncestorMap& ancestors, auto& before) {
+        list = ordered.list();
+        ancestors = ordered.ancestors();
+        before.assign(ordered.before().begin(), ordered.before().end());
+    };
+    copy(lists.cells, finest.cells, finest.cell_ancestors, data.cells_before);
+    copy(lists.facets, finest.facets, finest.facet_ancestors, data.facets_before);
+    copy(lists.edges, finest.edges, finest.edge_ancestors, data.edges_before);
 }
 
 /// Returns the number of this process's vertices after each step, from 0 on.
@@ -103,7 +104,7 @@ Levels AdaptiveMesh::levels(const LevelOptions& options) const {
         const auto whole = whole_counts(*state_, local);
         const auto& numbers = state_->numbers.of_vertex;
         auto data = std::make_shared<Levels::Data>();
-        data->finest = finest_of(state_->mesh);
+        copy_finest(state_->mesh, *data);
         data->vertex_numbers.assign(numbers.begin(), numbers.end());
         for (const std::size_t step : chosen_steps(whole, options.growth)) {
             data->levels.push_back(

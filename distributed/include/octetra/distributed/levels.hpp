@@ -21,7 +21,8 @@ struct LevelOptions {
     double growth = 1.7;
 };
 
-/// The entities of a level on this process in canonical order, by local numbers of vertices.
+/// The entities of a level on this process, by local numbers of vertices: those of the last level
+/// in the order of the mesh, those of others in canonical order.
 struct LevelLists {
     IndexVector<CellIndex, CellVertices> cells;
     std::vector<Marker> regions;  ///< one per cell; empty if the input has none

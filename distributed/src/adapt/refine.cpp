@@ -82,13 +82,15 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
                              const RefineOptions& options, const Tuning& tuning) {
     const StandardArithmetic standard;
     SynchronisationCounts total;
+    RefineOptions of_level = options;
     if (options.balance) {
         const Phase phase(mesh.processes, "select");
-        mesh.processes.transaction([&] { check_same(mesh.processes, *options.balance); });
+        mesh.processes.transaction([&] {
+            check_same(mesh.processes, *options.balance);
+            if (uses_history(selection)) of_level.balance->may_forget_history = false;
+        });
     }
     note_cells(mesh.processes, 0, mesh.cells.size(), 0);
-    RefineOptions of_level = options;
-    if (of_level.balance && uses_history(selection)) of_level.balance->may_forget_history = false;
     std::uint64_t accumulated_idle = 0;
     for (int level = 1; level <= options.levels; ++level) {
         const Phase phase(mesh.processes, "level", level);

@@ -11,6 +11,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/estimator_marks.hpp>
 #include <octetra/distributed/exchange.hpp>
+#include <octetra/distributed/levels.hpp>
 #include <octetra/distributed/refine.hpp>
 
 #include "distributed/failing_allocations.hpp"
@@ -197,6 +198,28 @@ TEST(FailingAllocations, OfALevelBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
             if (done) break;
         }
     }
+}
+
+TEST(FailingAllocations, OfExpressionsLeaveTheMeshAsItWasOnAllProcesses) {
+    const Selection selection{
+        .where = {Expression("distance(3) < 0.1 or boundary and generation < 1")},
+        .narrowed_by = {{.where = {Expression("longest > 0.05")}}}};
+    const std::uint64_t refused = fail_each_allocation_of_step(
+        1, [&](AdaptiveMesh& mesh) { return [&] { (void)mesh.refine(selection); }; });
+    EXPECT_GT(refused, 200U);
+}
+
+TEST(FailingAllocations, OfLevelsAreThrownOnAllProcesses) {
+    const std::uint64_t refused = fail_each_allocation_of_step(2, [&](AdaptiveMesh& mesh) {
+        const Levels levels = mesh.levels();
+        const std::vector<double> values(levels.points(1).size(), 1);
+        return [&mesh, levels, values] {
+            (void)mesh.levels();
+            (void)levels.prolongation(0);
+            (void)levels.restrict_residual(1, values);
+        };
+    });
+    EXPECT_GT(refused, 100U);
 }
 
 TEST(FailingAllocations, OfTransferringValuesAreThrownOnAllProcesses) {

@@ -94,7 +94,7 @@ TEST_P(RegularRequests, AreConfirmedExactlyIfTheyMakeTheMesh) {
 INSTANTIATE_TEST_SUITE_P(, RegularRequests, testing::Range(std::size_t{0}, std::size_t{3}));
 
 /// The mesh of a request, and histories that differ from it by a single edge or family.
-struct Refined {
+struct RequestedSteps {
     Mesh coarse = test::perturbed_kuhn(2, 0.2, 7);
     Request request{.selection = {.spheres = {{{0.5, 0.5, 0.5}, 0.6}}}, .levels = 2};
     reference::History history = [this] {
@@ -113,7 +113,7 @@ struct Refined {
 };
 
 TEST(RegularRequest, DetectsEverySingleEdgeTooManyOrTooFew) {
-    const Refined refined;
+    const RequestedSteps refined;
     ASSERT_EQ(codes_of(refined.judge(refined.history, 0)), "");
     const auto before_last = reference::replay({refined.coarse, {refined.history.steps.front()}});
     std::set<EdgeVertices> candidates;  // edges of the cells that the last step may bisect
@@ -148,7 +148,7 @@ TEST(RegularRequest, DetectsEverySingleEdgeTooManyOrTooFew) {
 }
 
 TEST(RegularRequest, DetectsAFamilyThatIsCompletedWithoutNeed) {
-    const Refined refined;
+    const RequestedSteps refined;
     const auto fine = reference::replay(refined.history).back();
     int completed = 0;
     for (CellIndex c{0}; c < fine.mesh.cells.end_index(); ++c) {

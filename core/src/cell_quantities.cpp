@@ -31,7 +31,7 @@ std::string list_of(const auto& names) {
     return list;
 }
 
-/// Returns a byte for each cell: 1 if one of its faces is no face of another cell.
+/// Returns for each cell 1 if one of its faces is no face of another cell, otherwise 0.
 std::vector<double> boundary_of(const Mesh& mesh) {
     struct Face {
         FacetVertices vertices;

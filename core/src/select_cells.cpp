@@ -49,29 +49,6 @@ double least_length(const Corners& corners) {
     return least;
 }
 
-/// The value of a term that is not external.
-double value_of(Quantity quantity, const CellToTest& cell) {
-    // The order of the corners must not affect the rounding.
-    const auto in_order = [&] {
-        Corners corners = cell.corners;
-        std::ranges::sort(corners);
-        return corners;
-    };
-    switch (quantity) {
-        case Quantity::x: return centroid(cell.corners).x;
-        case Quantity::y: return centroid(cell.corners).y;
-        case Quantity::z: return centroid(cell.corners).z;
-        case Quantity::volume: return volume(cell.corners);
-        case Quantity::longest: return greatest_length(cell.corners);
-        case Quantity::shortest: return least_length(cell.corners);
-        case Quantity::eta: return mean_ratio(in_order());
-        case Quantity::min_dihedral: return std::ranges::min(dihedral_angles(in_order()));
-        case Quantity::max_dihedral: return std::ranges::max(dihedral_angles(in_order()));
-        case Quantity::region: return cell.region;
-        default: return 0;
-    }
-}
-
 /// An expression of a selection, and where the values of its terms are.
 class Test {
 public:
@@ -173,6 +150,28 @@ std::vector<const Selection*> groups_of(const Selection& selection) {
 }
 
 }  // namespace
+
+double value_of(Quantity quantity, const CellToTest& cell) {
+    // The order of the corners must not affect the rounding.
+    const auto in_order = [&] {
+        Corners corners = cell.corners;
+        std::ranges::sort(corners);
+        return corners;
+    };
+    switch (quantity) {
+        case Quantity::x: return centroid(cell.corners).x;
+        case Quantity::y: return centroid(cell.corners).y;
+        case Quantity::z: return centroid(cell.corners).z;
+        case Quantity::volume: return volume(cell.corners);
+        case Quantity::longest: return greatest_length(cell.corners);
+        case Quantity::shortest: return least_length(cell.corners);
+        case Quantity::eta: return mean_ratio(in_order());
+        case Quantity::min_dihedral: return std::ranges::min(dihedral_angles(in_order()));
+        case Quantity::max_dihedral: return std::ranges::max(dihedral_angles(in_order()));
+        case Quantity::region: return cell.region;
+        default: return 0;
+    }
+}
 
 std::vector<const Expression*> expressions_of(const Selection& selection) {
     std::vector<const Expression*> expressions;

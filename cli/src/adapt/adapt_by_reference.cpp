@@ -18,6 +18,7 @@
 
 #include "adapt/check_files.hpp"
 #include "adapt/run.hpp"
+#include "adapt/size_files.hpp"
 #include "adapt/step_texts.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/report_line.hpp"
@@ -199,6 +200,7 @@ void refuse_what_the_reference_lacks(const AdaptationOptions& options, const Scr
             "--fields, --series, --verify, --profile and --trace cannot be combined with --engine "
             "reference, which creates only the mesh");
     }
+    if (has_size_file(script)) throw InputError(std::string(reference_lacks_size_files));
     constexpr std::string_view reason =
         "--engine reference records no history and cannot be combined with .octetra files; the "
         "default engine makes the same mesh";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,6 +28,7 @@
 #include "adapt/predicted_by_steps.hpp"
 #include "adapt/run.hpp"
 #include "adapt/run_script.hpp"
+#include "adapt/size_files.hpp"
 #include "adapt/step_texts.hpp"
 #include "adapt/transfer_fields.hpp"
 #include "adapt/write_result.hpp"
@@ -48,8 +50,7 @@ public:
     Series(const std::string& path, const distributed::Communicator& world) {
         if (!path.empty()) file_.emplace(path, world);
     }
-    void append(const distributed::AdaptiveMesh& mesh,
-                const std::vector<distributed::Field>& fields) {
+    void append(const distributed::AdaptiveMesh& mesh, std::span<const distributed::Field> fields) {
         if (!file_) return;
         const distributed::Phase phase(mesh.processes(), "write");
         mesh.append_to(*file_, steps_++, fields);
@@ -196,7 +197,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
         });
     });
     MeshFacts read;  // on the first process
-    std::vector<distributed::Field> fields;
+    CarriedFields fields;
     const bool has_history = is_checkpoint(options.input.path);
     if (has_history && !options.maps.empty() && has_regular_step(script)) {
         throw InputError(
@@ -204,11 +205,15 @@ void adapt(const AdaptationOptions& options, const Script& script,
             "numbers; maps can be written from a mesh without history");
     }
     if (has_history) read = facts_of_checkpoint(options.input.path, world);
-    auto adaptive = has_history ? distributed::in_phase(
-                                      world, "read", [&] { return load(options, world, fields); })
-                                : read_in_parts(options, script, partition, world, read);
+    auto adaptive =
+        has_history
+            ? distributed::in_phase(world, "read", [&] { return load(options, world, fields.all); })
+            : read_in_parts(options, script, partition, world, read);
     check_regions_of(script, adaptive.regions(), world);
-    distributed::in_phase(world, "read", [&] { read_fields(adaptive, options.input, fields); });
+    distributed::in_phase(world, "read", [&] {
+        read_fields(adaptive, options.input, fields.all);
+        read_size_files(adaptive, script, fields);
+    });
     const Run run{&options, world, &watch};
     report_input(run, size_of(adaptive), [&] { return slice_of(adaptive); });
     verify::MeshSlice coarse;
@@ -217,16 +222,16 @@ void adapt(const AdaptationOptions& options, const Script& script,
     if (!options.maps.empty()) since.emplace(adaptive);
     const auto follow = [&](const distributed::Adaptation& step) {
         if (since) since->follow(step);
-        for (const std::string& dropped : transfer_fields(fields, step, world)) {
+        for (const std::string& dropped : transfer_fields(fields.all, step, world)) {
             if (world.is_first()) note(dropped);
         }
     };
     const auto move_along = [&](const distributed::Migration& move) {
         if (since) since->follow(move);
-        transfer_fields(fields, move);
+        transfer_fields(fields.all, move);
     };
     Series series(options.series, world);
-    series.append(adaptive, fields);
+    series.append(adaptive, fields.written());
     const bool tells_origin = since.has_value() || records_origins(options.output);
     run_script(adaptive, script,
                {.input = read,
@@ -237,7 +242,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
                 .recalls_history = tells_origin,
                 .on_step = follow,
                 .on_move = move_along,
-                .on_changed = [&] { series.append(adaptive, fields); },
+                .on_changed = [&] { series.append(adaptive, fields.written()); },
                 .fields = &fields,
                 .quiet = options.quiet},
                watch);
@@ -248,7 +253,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
         }
         report(run, "verified", size_of(adaptive));
     }
-    const std::string lost = write_result(adaptive, fields, options.output);
+    const std::string lost = write_result(adaptive, fields.written(), options.output);
     report_written(run, lost, size_of(adaptive));
     if (has_regular_step(script) && !is_checkpoint(options.output) && world.is_first()) {
         note(std::string(regular_history_is_lost));

@@ -18,11 +18,10 @@ std::vector<std::uint8_t> listed_cells(const distributed::AdaptiveMesh& mesh,
 }
 
 void add_marked_cells(const distributed::AdaptiveMesh& mesh, const Selection& selection,
-                      std::span<const distributed::Field> fields,
-                      std::vector<std::uint8_t>& cell_to_mark) {
+                      const CarriedFields& fields, std::vector<std::uint8_t>& cell_to_mark) {
     Selection criteria = selection;
     criteria.cells.clear();
-    const std::vector<std::uint8_t> marked = mesh.marked_cells(criteria, fields);
+    const std::vector<std::uint8_t> marked = mesh.marked_cells(criteria, fields.all);
     for (std::size_t c = 0; c < marked.size(); ++c) cell_to_mark[c] |= marked[c];
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
+
+#include "adapt/size_files.hpp"
 
 namespace octetra::cli {
 
@@ -18,7 +19,6 @@ namespace octetra::cli {
 /// Collective. Sets the byte of each cell of this process that the criteria, except for the list of
 /// cells, mark. Expressions may use the fields.
 void add_marked_cells(const distributed::AdaptiveMesh& mesh, const Selection& selection,
-                      std::span<const distributed::Field> fields,
-                      std::vector<std::uint8_t>& cell_to_mark);
+                      const CarriedFields& fields, std::vector<std::uint8_t>& cell_to_mark);
 
 }  // namespace octetra::cli

@@ -117,7 +117,7 @@ public:
 
     StepDone operator()(const WriteStep& step) {
         if (records_origins(step.path)) recall_history_and_balance(*mesh_, *run_);
-        return step_written(step.path, write_result(*mesh_, *run_->fields, step.path));
+        return step_written(step.path, write_result(*mesh_, run_->fields->written(), step.path));
     }
 
 private:

@@ -7,6 +7,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/field.hpp>
 
+#include "adapt/size_files.hpp"
 #include "script/read_script.hpp"
 #include "stopwatch.hpp"
 
@@ -24,7 +25,7 @@ struct ScriptRun {
     std::function<void()> on_changed = {};  ///< called after each refinement or coarsening step
     /// The fields of the current mesh whenever a step uses or writes them; on_step and on_move must
     /// keep them so.
-    const std::vector<distributed::Field>* fields = nullptr;
+    const CarriedFields* fields = nullptr;
     bool quiet = false;
 };
 

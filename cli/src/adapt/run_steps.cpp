@@ -52,7 +52,7 @@ std::vector<std::uint8_t> listed_or_none(const AdaptiveMesh& mesh,
 /// Collective. Returns the marks of the cells of this process that a step selects in the current
 /// mesh.
 std::vector<std::uint8_t> marks_to_coarsen(const AdaptiveMesh& mesh, const CoarsenStep& step,
-                                           std::span<const distributed::Field> fields) {
+                                           const CarriedFields& fields) {
     std::vector<std::uint8_t> marked = listed_or_none(mesh, step.selection.cells);
     add_marked_cells(mesh, step.selection, fields, marked);
     if (!step.typed.outside) return marked;

@@ -8,6 +8,7 @@
 
 #include <octetra/distributed/adaptive_mesh.hpp>
 
+#include "adapt/size_files.hpp"
 #include "adapt/steps.hpp"
 
 /// Steps carried out by the library. The lists of cells of their selections are complete.
@@ -20,7 +21,7 @@ struct Followers {
     std::function<void(const distributed::Migration&)> on_move;    ///< before a step; likewise
     bool is_refined_before = false;  ///< whether the mesh already had a history
     /// The fields of the current mesh, for expressions; on_step and on_move must keep them so.
-    const std::vector<distributed::Field>* fields = nullptr;
+    const CarriedFields* fields = nullptr;
 };
 
 /// Collective. Repeats marking and refining as often as the step requests, with the same result as

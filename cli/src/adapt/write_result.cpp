@@ -6,7 +6,7 @@
 namespace octetra::cli {
 
 std::string write_result(const distributed::AdaptiveMesh& mesh,
-                         const std::vector<distributed::Field>& fields, const std::string& path) {
+                         std::span<const distributed::Field> fields, const std::string& path) {
     const distributed::Phase phase(mesh.processes(), "write");
     if (is_checkpoint(path)) {
         mesh.save(path, fields);

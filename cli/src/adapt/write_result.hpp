@@ -1,7 +1,7 @@
 #pragma once
 
+#include <span>
 #include <string>
-#include <vector>
 
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/field.hpp>
@@ -11,7 +11,7 @@ namespace octetra::cli {
 /// Collective. Writes the mesh and its fields in the format of the extension. Returns a sentence
 /// naming the data that the format cannot hold, or an empty string.
 [[nodiscard]] std::string write_result(const distributed::AdaptiveMesh& mesh,
-                                       const std::vector<distributed::Field>& fields,
+                                       std::span<const distributed::Field> fields,
                                        const std::string& path);
 
 }  // namespace octetra::cli

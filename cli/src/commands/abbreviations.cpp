@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/expression.hpp>
 
 #include "parse_numbers.hpp"
 
@@ -17,15 +16,6 @@ using Limits = std::numeric_limits<double>;
 
 const Range<double> shares{Limits::min(), 1, "above 0, at most 1"};
 const Range<double> lengths{Limits::denorm_min(), Limits::max(), "above 0", ""};
-
-/// Returns a name of a field or group in quotation marks. Throws InputError if that is impossible.
-std::string quoted(std::string_view option, std::string_view name) {
-    const char quote = name.find('"') == std::string_view::npos ? '"' : '\'';
-    if (name.find(quote) == std::string_view::npos)
-        return fmt::format("{}{}{}", quote, name, quote);
-    throw InputError(
-        fmt::format("{}: the name {} has both kinds of quotation marks", option, name));
-}
 
 struct FieldNumber {
     std::string name;  ///< in quotation marks
@@ -43,15 +33,6 @@ FieldNumber parse_field_number(std::string_view option, std::string_view text,
     }
     return {quoted(option, text.substr(0, comma)),
             parse_number<double>(option, text.substr(comma + 1), range)};
-}
-
-std::string size(const std::string& value) {
-    try {
-        (void)Expression(value);
-    } catch (const InputError& error) {
-        throw InputError(fmt::format("--size: {}", error.what()));
-    }
-    return fmt::format("longest > ({})", value);
 }
 
 std::string near(const std::string& value) {
@@ -99,13 +80,17 @@ std::string above(const std::string& value) {
 
 }  // namespace
 
-const std::array<Abbreviation, 6>& abbreviations() {
-    static constexpr std::array<Abbreviation, 6> list{
-        {{"size", "EXPRESSION",
-          "cells with an edge longer than this size: a number or an expression, such as\n"
-          "\"0.02 + distance(wall) / 4\"",
-          size},
-         {"near", "MARKER,D[,H]",
+std::string quoted(std::string_view option, std::string_view name) {
+    const char quote = name.find('"') == std::string_view::npos ? '"' : '\'';
+    if (name.find(quote) == std::string_view::npos)
+        return fmt::format("{}{}{}", quote, name, quote);
+    throw InputError(
+        fmt::format("{}: the name {} has both kinds of quotation marks", option, name));
+}
+
+const std::array<Abbreviation, 5>& abbreviations() {
+    static constexpr std::array<Abbreviation, 5> list{
+        {{"near", "MARKER,D[,H]",
           "cells nearer than D to tagged facets with this marker or group name [with an\n"
           "edge longer than H]",
           near},

@@ -15,6 +15,10 @@ struct Abbreviation {
     std::string (*expression)(const std::string& value);
 };
 
-[[nodiscard]] const std::array<Abbreviation, 6>& abbreviations();
+/// Returns a name of a field or group in quotation marks. Throws InputError, which begins with the
+/// option, if that is impossible.
+[[nodiscard]] std::string quoted(std::string_view option, std::string_view name);
+
+[[nodiscard]] const std::array<Abbreviation, 5>& abbreviations();
 
 }  // namespace octetra::cli

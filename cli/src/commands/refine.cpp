@@ -28,6 +28,7 @@
 #include "adapt/check_files.hpp"
 #include "adapt/judge.hpp"
 #include "adapt/run.hpp"
+#include "adapt/size_files.hpp"
 #include "adapt/step_texts.hpp"
 #include "commands/commands.hpp"
 #include "commands/engine_option.hpp"
@@ -251,6 +252,7 @@ bool refine_distributed(Plan plan, const Run& run) {
 void refine_with_history(const Plan& plan, const Script& one_step, AdaptationOptions options,
                          const distributed::Communicator& world) {
     if (plan.engine == Engine::reference) {
+        if (has_size_file(one_step)) throw InputError(std::string(reference_lacks_size_files));
         const bool has_fields = !options.input.fields.empty();
         throw InputError(fmt::format(
             "--engine reference does not support {} and cannot be combined with {}: omit "
@@ -272,7 +274,7 @@ void refine(const RefineOptions& given, const distributed::Communicator& all) {
     const bool is_reference = plan.engine == Engine::reference;
     const bool is_regular = plan.step.closure == Closure::regular && !is_reference;
     if (is_regular || is_checkpoint(options.input.path) || is_checkpoint(options.output) ||
-        !options.input.fields.empty()) {
+        !options.input.fields.empty() || has_size_file(one_step)) {
         return refine_with_history(plan, one_step, options, measured(all, options.profile));
     }
     Stopwatch watch;

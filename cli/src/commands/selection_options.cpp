@@ -20,6 +20,7 @@
 #include "commands/abbreviations.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
+#include "commands/size_option.hpp"
 #include "parse_numbers.hpp"
 
 namespace octetra::cli {
@@ -136,6 +137,7 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         ->type_name("EXPRESSION")
         ->allow_extra_args(false)
         ->group(group);
+    add_size_option(subcommand, options, group);
     for (const Abbreviation& abbreviation : abbreviations()) {
         const std::string name(abbreviation.option);
         subcommand
@@ -177,6 +179,10 @@ void group_criteria(const CLI::App& subcommand, SelectionOptions& options) {
         if (name == "seed") group.seed = options.seed;
         if (name == "max-volume") group.max_volume = options.max_volume;
         if (name == "where") take_next(group.where, options.where);
+        if (name == "size") {
+            take_next(group.sizes, options.sizes);
+            group.where.push_back(fmt::format("longest > ({})", target_size(group.sizes.back())));
+        }
         for (const Abbreviation& abbreviation : abbreviations()) {
             if (name != abbreviation.option) continue;
             group.where.push_back(abbreviation.expression(next_of(options.abbreviated[name])));
@@ -217,7 +223,8 @@ Selection parse_selection(const SelectionOptions& options, std::string_view want
     selection.max_volume = options.max_volume;
     for (const std::string& text : options.where) selection.where.push_back(parse_where(text));
     if (!has_criterion(options)) {
-        std::string names = "--all, --cells, --sphere, --box, --region, --random, --max-volume";
+        std::string names =
+            "--all, --cells, --sphere, --box, --region, --random, --max-volume, --size";
         for (const Abbreviation& other : abbreviations())
             names += fmt::format(", --{}", other.option);
         throw InputError(fmt::format("specify {}: {} or --where", wanted, names));

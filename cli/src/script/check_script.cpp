@@ -12,17 +12,10 @@
 #include <octetra/core/files/output_paths.hpp>
 
 #include "commands/mesh_options.hpp"
+#include "commands/size_option.hpp"
 
 namespace octetra::cli {
 namespace {
-
-const SelectionOptions* criteria_of(const Step& step) {
-    if (const auto* refine = std::get_if<RefineStep>(&step)) {
-        return &refine->typed.selection;
-    }
-    if (const auto* coarsen = std::get_if<CoarsenStep>(&step)) return &coarsen->typed.selection;
-    return nullptr;
-}
 
 /// Calls check(step) for each step; prepends the line to errors.
 void check_each(const Script& script, auto&& check) {
@@ -60,12 +53,24 @@ private:
 
 }  // namespace
 
+const SelectionOptions* criteria_of(const Step& step) {
+    if (const auto* refine = std::get_if<RefineStep>(&step)) {
+        return &refine->typed.selection;
+    }
+    if (const auto* coarsen = std::get_if<CoarsenStep>(&step)) return &coarsen->typed.selection;
+    return nullptr;
+}
+
 std::vector<NamedFiles> files_read_by(const Script& script) {
     std::vector<NamedFiles> files;
     for (const ScriptStep& step : script.steps) {
         const SelectionOptions* criteria = criteria_of(step.step);
-        if (criteria != nullptr && !criteria->cells_file.empty()) {
+        if (criteria == nullptr) continue;
+        if (!criteria->cells_file.empty()) {
             files.push_back(file_named("--cells", criteria->cells_file));
+        }
+        for (const std::string& file : size_files_of(*criteria)) {
+            files.push_back(file_named("--size", file));
         }
     }
     return files;

@@ -13,7 +13,10 @@
 /// Checks of a script before its first step is run. All throw InputError, which names the line.
 namespace octetra::cli {
 
-/// Returns the lists that its steps read.
+/// Returns the criteria of a step, or null.
+[[nodiscard]] const SelectionOptions* criteria_of(const Step& step);
+
+/// Returns the lists and sizes that its steps read.
 [[nodiscard]] std::vector<NamedFiles> files_read_by(const Script& script);
 
 /// Throws for a step whose output cannot be written by this many ranks, or would overwrite an input

@@ -39,11 +39,14 @@ constexpr std::array<QuantityName, 12> variables{{{"x", Quantity::x},
                                                   {"boundary", Quantity::boundary}}};
 
 /// Quantities with arguments: a name, and for the last two a number.
-constexpr std::array<QuantityName, 5> named_quantities{{{"distance", Quantity::distance},
-                                                        {"field", Quantity::field},
-                                                        {"field_max", Quantity::field_max},
-                                                        {"bulk", Quantity::bulk},
-                                                        {"fraction", Quantity::fraction}}};
+constexpr std::array<QuantityName, 7> named_quantities{
+    {{"distance", Quantity::distance},
+     {"field", Quantity::field},
+     {"field_max", Quantity::field_max},
+     {"metric_longest", Quantity::metric_longest},
+     {"size", Quantity::size},
+     {"bulk", Quantity::bulk},
+     {"fraction", Quantity::fraction}}};
 
 bool takes_share(Quantity quantity) { return quantity >= Quantity::bulk; }
 

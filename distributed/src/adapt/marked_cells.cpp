@@ -23,7 +23,7 @@ std::vector<std::uint8_t> select(const AdaptiveMesh::State& state, const Selecti
             "generation needs the history of the mesh, which was forgotten when cells moved: "
             "recall it, or do not allow this");
     }
-    return select_cells(state.mesh, selection, {fields, &state.sharing});
+    return select_cells(state.mesh, selection, {fields, &state.sharing, &state.numbers});
 }
 
 }  // namespace

@@ -12,20 +12,10 @@
 #include <octetra/distributed/estimator_marks.hpp>
 #include <octetra/distributed/exchange.hpp>
 
+#include "select/size_values.hpp"
+
 namespace octetra::distributed {
 namespace {
-
-/// Returns the field with the name of the term; one on cells precedes one on vertices.
-const Field& find_field(const Term& term, std::span<const Field> fields) {
-    for (const FieldOn on : {FieldOn::cells, FieldOn::vertices}) {
-        for (const Field& field : fields) {
-            if (field.on == on && field.name == term.name) return field;
-        }
-    }
-    std::vector<std::string> names;
-    for (const Field& field : fields) names.push_back(field.name);
-    refuse_field(term, names);
-}
 
 /// Returns a number for each entity: the value, or the length of the vector of the components.
 std::vector<double> numbers_of(const Field& field) {
@@ -62,7 +52,20 @@ std::vector<double> maxima_of(const DistributedMesh& mesh, const std::vector<dou
     return of_cell;
 }
 
-std::vector<double> means_of(const DistributedMesh& mesh, const std::vector<double>& of_vertex) {
+}  // namespace
+
+const Field& find_field(const Term& term, std::span<const Field> fields) {
+    for (const FieldOn on : {FieldOn::cells, FieldOn::vertices}) {
+        for (const Field& field : fields) {
+            if (field.on == on && field.name == term.name) return field;
+        }
+    }
+    std::vector<std::string> names;
+    for (const Field& field : fields) names.push_back(field.name);
+    refuse_field(term, names);
+}
+
+std::vector<double> means_of(const DistributedMesh& mesh, std::span<const double> of_vertex) {
     std::vector<double> of_cell;
     of_cell.reserve(mesh.cells.size());
     for (const auto& [a, b, c, d] : mesh.cells) {
@@ -72,10 +75,11 @@ std::vector<double> means_of(const DistributedMesh& mesh, const std::vector<doub
     return of_cell;
 }
 
-}  // namespace
-
 std::vector<double> field_values(const DistributedMesh& mesh, const Term& term,
                                  const FieldsToUse& given) {
+    if (term.quantity == Quantity::metric_longest || term.quantity == Quantity::size) {
+        return size_values(mesh, term, given);
+    }
     const Field& field = find_field(term, given.fields);
     std::vector<double> values = numbers_of(field);
     if (field.on == FieldOn::vertices) {

@@ -9,12 +9,16 @@
 #include <octetra/distributed/field.hpp>
 #include <octetra/distributed/sharing.hpp>
 
+#include "numbering/canonical_numbers.hpp"
+
 namespace octetra::distributed {
 
 /// The values of a mesh that expressions may use.
 struct FieldsToUse {
     std::span<const Field> fields;  ///< they match the mesh, and are the same on all processes
-    const Sharing<VertexIndex>* sharing = nullptr;  ///< of the mesh, if there are fields
+    // of the mesh, if there are fields
+    const Sharing<VertexIndex>* sharing = nullptr;
+    const CanonicalNumbers* numbers = nullptr;
 };
 
 /// Collective, within a transaction. Returns a byte for each cell of this process: 1 if the

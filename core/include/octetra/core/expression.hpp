@@ -26,11 +26,13 @@ enum class Quantity : std::uint8_t {
     // of the mesh around the cell; see is_external()
     generation,
     boundary,
-    distance,   ///< to the tagged facets with the marker or group name `name`
-    field,      ///< the value, or the mean over the corners, of the field `name`
-    field_max,  ///< likewise, with the maximum over the corners
-    bulk,       ///< 1 if bulk marking of the field `name` with the fraction `share` marks the cell
-    fraction,   ///< 1 if the cell is in the fraction `share` with the largest values of `name`
+    distance,        ///< to the tagged facets with the marker or group name `name`
+    field,           ///< the value, or the mean over the corners, of the field `name`
+    field_max,       ///< likewise, with the maximum over the corners
+    metric_longest,  ///< the length of the longest edge in the metric `name`
+    size,            ///< the length that the field or metric `name` allows an edge
+    bulk,      ///< 1 if bulk marking of the field `name` with the fraction `share` marks the cell
+    fraction,  ///< 1 if the cell is in the fraction `share` with the largest values of `name`
 };
 
 /// A quantity with its arguments.

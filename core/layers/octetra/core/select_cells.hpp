@@ -29,6 +29,9 @@ using TermValues = std::vector<std::vector<double>>;
     return !selection.where.empty() || !selection.narrowed_by.empty();
 }
 
+/// Returns the value of a quantity that is not external.
+[[nodiscard]] double value_of(Quantity quantity, const CellToTest& cell);
+
 /// The criteria but for expressions and `narrowed_by`.
 [[nodiscard]] bool marks_by_criteria(const Selection& selection, const Corners& corners,
                                      Marker region, GlobalCell root);

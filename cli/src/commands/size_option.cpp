@@ -1,0 +1,53 @@
+#include "commands/size_option.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/expression.hpp>
+#include <octetra/core/files/sol_files.hpp>
+
+#include "commands/abbreviations.hpp"
+
+namespace octetra::cli {
+
+void add_size_option(CLI::App& subcommand, SelectionOptions& options, const std::string& group) {
+    subcommand
+        .add_option("--size", options.sizes,
+                    "cells with an edge longer than this size: a number, an expression such as\n"
+                    "\"0.02 + distance(wall) / 4\", or a .sol or .solb file with sizes or metrics\n"
+                    "on the vertices or cells of MESH")
+        ->type_name("SIZE")
+        ->allow_extra_args(false)
+        ->group(group);
+}
+
+bool is_size_file(std::string_view value) { return is_sol(value); }
+
+std::string target_size(const std::string& value) {
+    if (is_size_file(value)) return fmt::format("size({})", quoted("--size", value));
+    try {
+        (void)Expression(value);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("--size: {}", error.what()));
+    }
+    return value;
+}
+
+std::vector<std::string> size_files_of(const SelectionOptions& options) {
+    std::vector<std::string> files;
+    const auto add = [&](const std::string& file) {
+        if (std::ranges::find(files, file) == files.end()) files.push_back(file);
+    };
+    for (const std::string& value : options.sizes) {
+        if (is_size_file(value)) add(value);
+    }
+    for (const SelectionOptions& other : options.narrowed_by) {
+        for (const std::string& file : size_files_of(other)) add(file);
+    }
+    return files;
+}
+
+}  // namespace octetra::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands/selection_options.hpp"
+
+/// The option --size: a target size, the length that no edge of a cell is to exceed.
+namespace octetra::cli {
+
+/// Declares --size under the heading `group` of the help.
+void add_size_option(CLI::App& subcommand, SelectionOptions& options, const std::string& group);
+
+/// Returns whether a value of --size is the name of a file rather than an expression: whether it
+/// ends in .sol or .solb.
+[[nodiscard]] bool is_size_file(std::string_view value);
+
+/// Returns the expression of the target size for a value of --size; the field of a file has the
+/// name of the file. A cell is too large if `longest > (SIZE)`. Throws InputError if the value is
+/// invalid.
+[[nodiscard]] std::string target_size(const std::string& value);
+
+/// Returns the files of --size in all groups of criteria, each once, in the order of their first
+/// use.
+[[nodiscard]] std::vector<std::string> size_files_of(const SelectionOptions& options);
+
+}  // namespace octetra::cli

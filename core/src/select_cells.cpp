@@ -29,12 +29,6 @@ struct Block {
     std::array<CellToTest, block_size> cells;
 };
 
-/// The squared length is rounded alike everywhere, std::hypot() perhaps not.
-double length(const Point& a, const Point& b) {
-    const double squared = squared_length({a, b});
-    return is_sure_square(squared) ? std::sqrt(squared) : distance(a, b);
-}
-
 double greatest_length(const Corners& corners) {
     double greatest = 0;
     for (const auto& [i, j] : cell_edges) {
@@ -74,16 +68,15 @@ public:
         columns_.resize(terms_.size());
     }
 
-    /// Sets the marks of the cells of the block in which the expression is not 0.
-    void mark(const Block& block, std::span<std::uint8_t> marks,
-              std::vector<UndefinedValue>& undefined) {
+    /// Calls take(i, value) for each cell of the block.
+    void evaluate(const Block& block, std::vector<UndefinedValue>& undefined, auto&& take) {
         fill_columns(block);
         std::feclearexcept(FE_INVALID);
         bool is_nan = false;
         for (std::size_t i = 0; i < block.count; ++i) {
             const double value = value_in(i);
             is_nan |= std::isnan(value);
-            if (value != 0) marks[i] = 1;
+            take(i, value);
         }
         if (is_nan || has_nan_ || std::fetestexcept(FE_INVALID) != 0)
             find_undefined(block, undefined);
@@ -136,9 +129,44 @@ struct Group {
             const auto& [corners, region, root] = block.cells[i];
             marks[i] = marks_by_criteria(*criteria, corners, region, root) ? 1 : 0;
         }
-        for (Test& test : tests) test.mark(block, marks, undefined);
+        for (Test& test : tests) {
+            test.evaluate(block, undefined, [&](std::size_t i, double value) {
+                if (value != 0) marks[i] = 1;
+            });
+        }
     }
 };
+
+/// Calls work(block) for blocks of all cells.
+void for_each_block(std::size_t count, const std::function<CellToTest(std::size_t)>& cell,
+                    auto&& work) {
+    Block block;
+    for (block.begin = 0; block.begin < count; block.begin += block_size) {
+        block.count = std::min(block_size, count - block.begin);
+        for (std::size_t i = 0; i < block.count; ++i) block.cells[i] = cell(block.begin + i);
+        work(block);
+    }
+}
+
+/// Returns the external terms that expressions use, each once.
+std::vector<Term> external_terms_of(std::span<const Expression* const> expressions) {
+    std::vector<Term> terms;
+    for (const Expression* expression : expressions) {
+        for (const Term& term : expression->terms()) {
+            if (!is_external(term.quantity)) continue;
+            if (std::ranges::find(terms, term) == terms.end()) terms.push_back(term);
+        }
+    }
+    return terms;
+}
+
+bool uses_generation(std::span<const Term> terms) {
+    return std::ranges::any_of(terms, [](const Term& term) {
+        return term.quantity == Quantity::generation ||
+               (term.quantity == Quantity::graded &&
+                uses_generation(Expression(term.name).terms()));
+    });
+}
 
 std::vector<const Selection*> groups_of(const Selection& selection) {
     std::vector<const Selection*> groups{&selection};
@@ -150,6 +178,12 @@ std::vector<const Selection*> groups_of(const Selection& selection) {
 }
 
 }  // namespace
+
+double length(const Point& a, const Point& b) {
+    // The squared length is rounded alike everywhere, std::hypot() perhaps not.
+    const double squared = squared_length({a, b});
+    return is_sure_square(squared) ? std::sqrt(squared) : distance(a, b);
+}
 
 double value_of(Quantity quantity, const CellToTest& cell) {
     // The order of the corners must not affect the rounding.
@@ -182,20 +216,24 @@ std::vector<const Expression*> expressions_of(const Selection& selection) {
 }
 
 std::vector<Term> external_terms(const Selection& selection) {
-    std::vector<Term> terms;
-    for (const Expression* expression : expressions_of(selection)) {
-        for (const Term& term : expression->terms()) {
-            if (!is_external(term.quantity)) continue;
-            if (std::ranges::find(terms, term) == terms.end()) terms.push_back(term);
-        }
-    }
-    return terms;
+    return external_terms_of(expressions_of(selection));
 }
 
-bool uses_history(const Selection& selection) {
-    return std::ranges::any_of(external_terms(selection), [](const Term& term) {
-        return term.quantity == Quantity::generation;
+bool uses_history(const Selection& selection) { return uses_generation(external_terms(selection)); }
+
+EvaluatedCells evaluate(const Expression& expression, std::size_t count,
+                        const std::function<CellToTest(std::size_t)>& cell,
+                        const TermValues& values) {
+    const StandardArithmetic standard;
+    const std::vector<Term> external = external_terms_of(std::array{&expression});
+    Test test(expression, 0, external, values);
+    EvaluatedCells evaluated;
+    evaluated.values.reserve(count);
+    for_each_block(count, cell, [&](const Block& block) {
+        test.evaluate(block, evaluated.undefined,
+                      [&](std::size_t, double value) { evaluated.values.push_back(value); });
     });
+    return evaluated;
 }
 
 SelectedCells select_cells(const Selection& selection, std::size_t count,
@@ -212,17 +250,14 @@ SelectedCells select_cells(const Selection& selection, std::size_t count,
         }
     }
     SelectedCells selected{std::vector<std::uint8_t>(count, 1), {}};
-    Block block;
     std::array<std::uint8_t, block_size> marked{};
-    for (block.begin = 0; block.begin < count; block.begin += block_size) {
-        block.count = std::min(block_size, count - block.begin);
-        for (std::size_t i = 0; i < block.count; ++i) block.cells[i] = cell(block.begin + i);
+    for_each_block(count, cell, [&](const Block& block) {
         for (Group& group : groups) {
             group.mark(block, marked, selected.undefined);
             for (std::size_t i = 0; i < block.count; ++i)
                 selected.marks[block.begin + i] &= marked[i];
         }
-    }
+    });
     return selected;
 }
 

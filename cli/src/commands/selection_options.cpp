@@ -156,6 +156,9 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
 }
 
 void group_criteria(const CLI::App& subcommand, SelectionOptions& options) {
+    if (options.gradation && options.sizes.empty()) {
+        throw InputError("--gradation requires --size, as in --size 0.05 --gradation 1.3");
+    }
     std::vector<SelectionOptions> groups(1);
     const auto next_of = [](std::vector<std::string>& from) {
         std::string text = std::move(from.front());
@@ -181,7 +184,7 @@ void group_criteria(const CLI::App& subcommand, SelectionOptions& options) {
         if (name == "where") take_next(group.where, options.where);
         if (name == "size") {
             take_next(group.sizes, options.sizes);
-            group.where.push_back(fmt::format("longest > ({})", target_size(group.sizes.back())));
+            group.where.push_back(fmt::format("longest > ({})", target_size(group.sizes.back(), options.gradation)));
         }
         for (const Abbreviation& abbreviation : abbreviations()) {
             if (name != abbreviation.option) continue;

@@ -1,6 +1,7 @@
 #include "commands/size_option.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -10,6 +11,7 @@
 #include <octetra/core/files/sol_files.hpp>
 
 #include "commands/abbreviations.hpp"
+#include "commands/number_options.hpp"
 
 namespace octetra::cli {
 
@@ -22,18 +24,28 @@ void add_size_option(CLI::App& subcommand, SelectionOptions& options, const std:
         ->type_name("SIZE")
         ->allow_extra_args(false)
         ->group(group);
+    using Limits = std::numeric_limits<double>;
+    add_number<double>(subcommand, "--gradation", options.gradation,
+                       {1 + Limits::epsilon(), Limits::max(), "above 1", ""},
+                       "limit how fast the size of --size grows from a cell to the next: by at\n"
+                       "most R - 1 for each unit of length")
+        ->type_name("R")
+        ->group(group);
 }
 
 bool is_size_file(std::string_view value) { return is_sol(value); }
 
-std::string target_size(const std::string& value) {
-    if (is_size_file(value)) return fmt::format("size({})", quoted("--size", value));
+std::string target_size(const std::string& value, std::optional<double> gradation) {
+    std::string size = value;
+    if (is_size_file(value)) size = fmt::format("size({})", quoted("--size", value));
+    if (gradation) size = fmt::format("graded({}, {})", size, *gradation);
     try {
-        (void)Expression(value);
+        if (!is_size_file(value)) (void)Expression(value);  // whose errors show VALUE alone
+        (void)Expression(size);
     } catch (const InputError& error) {
         throw InputError(fmt::format("--size: {}", error.what()));
     }
-    return value;
+    return size;
 }
 
 std::vector<std::string> size_files_of(const SelectionOptions& options) {

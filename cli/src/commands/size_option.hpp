@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,17 +10,17 @@
 /// The option --size: a target size, the length that no edge of a cell is to exceed.
 namespace octetra::cli {
 
-/// Declares --size under the heading `group` of the help.
+/// Declares --size and --gradation under the heading `group` of the help.
 void add_size_option(CLI::App& subcommand, SelectionOptions& options, const std::string& group);
 
 /// Returns whether a value of --size is the name of a file rather than an expression: whether it
 /// ends in .sol or .solb.
 [[nodiscard]] bool is_size_file(std::string_view value);
 
-/// Returns the expression of the target size for a value of --size; the field of a file has the
-/// name of the file. A cell is too large if `longest > (SIZE)`. Throws InputError if the value is
-/// invalid.
-[[nodiscard]] std::string target_size(const std::string& value);
+/// Returns the expression of the target size for a value of --size and of --gradation, if given; the
+/// field of a file has the name of the file. A cell is too large if `longest > (SIZE)`. Throws
+/// InputError if the value is invalid.
+[[nodiscard]] std::string target_size(const std::string& value, std::optional<double> gradation);
 
 /// Returns the files of --size in all groups of criteria, each once, in the order of their first
 /// use.

@@ -39,16 +39,19 @@ constexpr std::array<QuantityName, 12> variables{{{"x", Quantity::x},
                                                   {"boundary", Quantity::boundary}}};
 
 /// Quantities with arguments: a name, and for the last two a number.
-constexpr std::array<QuantityName, 7> named_quantities{
+constexpr std::array<QuantityName, 8> named_quantities{
     {{"distance", Quantity::distance},
-     {"field", Quantity::field},
+     {"graded", Quantity::graded},
+ {"field", Quantity::field},
      {"field_max", Quantity::field_max},
      {"metric_longest", Quantity::metric_longest},
      {"size", Quantity::size},
      {"bulk", Quantity::bulk},
      {"fraction", Quantity::fraction}}};
 
-bool takes_share(Quantity quantity) { return quantity >= Quantity::bulk; }
+bool takes_share(Quantity quantity) {
+    return quantity == Quantity::graded || quantity >= Quantity::bulk;
+}
 
 const QuantityName* find_name(const auto& names, std::string_view name) {
     const auto* const found = std::ranges::find(names, name, &QuantityName::name);
@@ -172,7 +175,8 @@ private:
             return put_term({variable->quantity, "", 0});
         }
         if (const auto* quantity = find_name(named_quantities, token.text)) {
-            return take_quantity(quantity->quantity);
+            return quantity->quantity == Quantity::graded ? take_graded()
+                                                          : take_quantity(quantity->quantity);
         }
         const auto* const function = std::ranges::find(functions, token.text, &Function::name);
         if (function == functions.end()) {
@@ -223,6 +227,39 @@ private:
         }
         take(TokenKind::close, "has more arguments than it takes, or is not closed");
         put_term(term);
+    }
+
+    /// Takes graded(EXPRESSION, R).
+    void take_graded() {
+        constexpr std::string_view wanted = "graded takes an expression and a number above 1";
+        ++at_;
+        if (here().kind != TokenKind::open) refuse_here(wanted);
+        const std::size_t begin = at_ + 1;
+        std::size_t comma = 0;  // the last one that no inner parentheses contain
+        std::size_t depth = 0;
+        do {
+            const Token& token = here();
+            if (token.kind == TokenKind::end) refuse_here(wanted);
+            if (token.kind == TokenKind::name && token.text == "graded") {
+                refuse_here("graded cannot contain graded");
+            }
+            if (token.kind == TokenKind::open) ++depth;
+            if (token.kind == TokenKind::close) --depth;
+            if (token.kind == TokenKind::comma && depth == 1) comma = at_;
+            ++at_;
+        } while (depth > 0);
+        const bool has_number = comma > begin && comma + 3 == at_ &&
+                                tokens_[comma + 1].kind == TokenKind::number &&
+                                tokens_[comma + 1].number > 1;
+        if (!has_number) {
+            at_ = begin;
+            refuse_here(wanted);
+        }
+        const std::string_view text = text_.substr(
+            tokens_[begin].begin, tokens_[comma].begin - tokens_[begin].begin);
+        put_term({Quantity::graded,
+                  Expression(text.substr(0, text.find_last_not_of(" \t") + 1)).text(),
+                  tokens_[comma + 1].number});
     }
 
     void put_term(const Term& term) {

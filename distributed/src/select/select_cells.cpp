@@ -15,6 +15,7 @@
 #include "numbering/cell_numbers.hpp"
 #include "select/facet_distances.hpp"
 #include "select/field_values.hpp"
+#include "select/graded_sizes.hpp"
 #include "topology/face_neighbours.hpp"
 
 namespace octetra::distributed {
@@ -23,24 +24,6 @@ namespace {
 std::vector<double> boundary_of(const DistributedMesh& mesh) {
     std::vector<double> values(mesh.cells.size(), 0);
     for (const auto& [cell, face] : find_boundary(mesh)) values[cell.value()] = 1;
-    return values;
-}
-
-/// Collective.
-TermValues values_of(const DistributedMesh& mesh, const Selection& selection,
-                     const FieldsToUse& fields) {
-    TermValues values;
-    for (const Term& term : external_terms(selection)) {
-        switch (term.quantity) {
-            case Quantity::generation:
-                values.push_back(
-                    generations_of(mesh.cells, mesh.input_vertices.size(), mesh.midpoint_to_edge));
-                break;
-            case Quantity::boundary: values.push_back(boundary_of(mesh)); break;
-            case Quantity::distance: values.push_back(facet_distances(mesh, term)); break;
-            default: values.push_back(field_values(mesh, term, fields)); break;
-        }
-    }
     return values;
 }
 
@@ -77,6 +60,65 @@ void check_defined(const DistributedMesh& mesh, const Selection& selection,
     refuse_undefined(selection, expression, cell + mesh.index_base);
 }
 
+/// The cells of this process.
+class OwnCells {
+public:
+    explicit OwnCells(const DistributedMesh& mesh) : mesh_(&mesh), roots_(roots_of_cells(mesh)) {}
+
+    CellToTest operator()(std::size_t number) const {
+        CellToTest cell;
+        const AncestorMap& ancestors = mesh_->cell_ancestors;
+        const CellVertices& vertices = mesh_->cells[CellIndex{number}];
+        for (std::size_t k = 0; k < 4; ++k) cell.corners[k] = mesh_->points[vertices[k]];
+        cell.region = ancestors.markers.empty() ? 0 : ancestors.markers[roots_[number]];
+        cell.root = GlobalCell{ancestors.roots[roots_[number]]};
+        return cell;
+    }
+
+private:
+    const DistributedMesh* mesh_;
+    std::vector<std::uint32_t> roots_;
+};
+
+/// Collective. Returns the values of the external terms of a selection.
+class Terms {
+public:
+    Terms(const DistributedMesh& mesh, const OwnCells& cells, const FieldsToUse& fields)
+        : mesh_(&mesh), cells_(&cells), fields_(&fields) {}
+
+    [[nodiscard]] TermValues of(const Selection& selection) const {
+        TermValues values;
+        for (const Term& term : external_terms(selection)) values.push_back(values_of(term));
+        return values;
+    }
+
+private:
+    [[nodiscard]] std::vector<double> values_of(const Term& term) const {
+        const DistributedMesh& mesh = *mesh_;
+        switch (term.quantity) {
+            case Quantity::generation:
+                return generations_of(mesh.cells, mesh.input_vertices.size(),
+                                      mesh.midpoint_to_edge);
+            case Quantity::boundary: return boundary_of(mesh);
+            case Quantity::distance: return facet_distances(mesh, term);
+            case Quantity::graded: return graded(term);
+            default: return field_values(mesh, term, *fields_);
+        }
+    }
+
+    [[nodiscard]] std::vector<double> graded(const Term& term) const {
+        const Selection alone{.where = {Expression(term.name)}};
+        EvaluatedCells sizes =
+            evaluate(alone.where[0], mesh_->cells.size(), *cells_, of(alone));
+        check_defined(*mesh_, alone, sizes.undefined);
+        return graded_sizes(*mesh_, std::move(sizes.values), term.share);
+    }
+
+    const DistributedMesh* mesh_;
+    const OwnCells* cells_;
+    const FieldsToUse* fields_;
+};
+
 /// Collective. Throws InputError unless all processes have the same expressions.
 void check_same_expressions(const Communicator& processes, const Selection& selection) {
     std::string texts;
@@ -92,19 +134,9 @@ std::vector<std::uint8_t> select_cells(const DistributedMesh& mesh, const Select
                                        const FieldsToUse& fields) {
     check(selection);
     check_same_expressions(mesh.processes, selection);
-    const std::vector<std::uint32_t> roots = roots_of_cells(mesh);
-    const AncestorMap& ancestors = mesh.cell_ancestors;
-    SelectedCells selected = octetra::select_cells(
-        selection, mesh.cells.size(),
-        [&](std::size_t number) {
-            CellToTest cell;
-            const CellVertices& vertices = mesh.cells[CellIndex{number}];
-            for (std::size_t k = 0; k < 4; ++k) cell.corners[k] = mesh.points[vertices[k]];
-            cell.region = ancestors.markers.empty() ? 0 : ancestors.markers[roots[number]];
-            cell.root = GlobalCell{ancestors.roots[roots[number]]};
-            return cell;
-        },
-        values_of(mesh, selection, fields));
+    const OwnCells cells(mesh);
+    SelectedCells selected = octetra::select_cells(selection, mesh.cells.size(), cells,
+                                                   Terms(mesh, cells, fields).of(selection));
     check_defined(mesh, selection, selected.undefined);
     return std::move(selected.marks);
 }

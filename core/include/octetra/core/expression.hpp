@@ -27,7 +27,8 @@ enum class Quantity : std::uint8_t {
     generation,
     boundary,
     distance,        ///< to the tagged facets with the marker or group name `name`
-    field,           ///< the value, or the mean over the corners, of the field `name`
+    graded,  ///< the value of the expression `name`, growing by at most `share` - 1 per length
+    field,  ///< the value, or the mean over the corners, of the field `name`
     field_max,       ///< likewise, with the maximum over the corners
     metric_longest,  ///< the length of the longest edge in the metric `name`
     size,            ///< the length that the field or metric `name` allows an edge
@@ -38,8 +39,8 @@ enum class Quantity : std::uint8_t {
 /// A quantity with its arguments.
 struct Term {
     Quantity quantity = Quantity::x;
-    std::string name;  ///< of a field, marker or group
-    double share = 0;  ///< the second argument of bulk() and fraction()
+    std::string name;  ///< of a field, marker or group; the text of the expression of graded()
+    double share = 0;  ///< the second argument of graded(), bulk() and fraction()
 
     friend bool operator==(const Term&, const Term&) = default;
 };

@@ -29,6 +29,10 @@ using TermValues = std::vector<std::vector<double>>;
     return !selection.where.empty() || !selection.narrowed_by.empty();
 }
 
+/// The distance of two points, rounded alike on every machine unless its square over- or
+/// underflows.
+[[nodiscard]] double length(const Point& a, const Point& b);
+
 /// Returns the value of a quantity that is not external.
 [[nodiscard]] double value_of(Quantity quantity, const CellToTest& cell);
 
@@ -64,6 +68,17 @@ struct SelectedCells {
 [[nodiscard]] SelectedCells select_cells(const Selection& selection, std::size_t count,
                                          const std::function<CellToTest(std::size_t)>& cell,
                                          const TermValues& values);
+
+struct EvaluatedCells {
+    std::vector<double> values;  ///< of each cell
+    std::vector<UndefinedValue> undefined;
+};
+
+/// Evaluates an expression likewise; `values` are those of its external terms, which are those of a
+/// selection with this expression alone.
+[[nodiscard]] EvaluatedCells evaluate(const Expression& expression, std::size_t count,
+                                      const std::function<CellToTest(std::size_t)>& cell,
+                                      const TermValues& values);
 
 /// Throws InputError: the expression has no value in the cell with this number, as in files.
 [[noreturn]] void refuse_undefined(const Selection& selection, std::size_t expression,

@@ -165,6 +165,11 @@ TermValues term_values(const Selection& selection, const Mesh& mesh, const Refin
                 break;
             case Quantity::boundary: values.push_back(boundary_of(mesh)); break;
             case Quantity::distance: values.push_back(distances_of(term, mesh)); break;
+            case Quantity::background:
+            case Quantity::graded:
+                throw InputError(fmt::format(
+                    "{} cannot be evaluated by the serial reference: use the default engine",
+                    text_of(term)));
             default: refuse_field(term, {});
         }
     }

@@ -1,14 +1,11 @@
 #include <octetra/core/triangle_tree.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 namespace octetra {
 namespace {
-
-constexpr std::uint32_t leaf_size = 8;
 
 Point minus(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 double dot_of(const Point& u, const Point& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
@@ -25,28 +22,9 @@ double squared_distance_to_segment(const Point& p, const Point& a, const Point& 
     return dot_of(rest, rest);
 }
 
-Box box_of_triangle(const Triangle& triangle) {
-    Box box{triangle[0], triangle[0]};
-    for (const Point& p : triangle) {
-        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
-                    std::max(box.high.z, p.z)};
-    }
-    return box;
-}
-
-void extend_by(Box& box, const Box& other) {
-    const auto& [low, high] = other;
-    box.low = {std::min(box.low.x, low.x), std::min(box.low.y, low.y), std::min(box.low.z, low.z)};
-    box.high = {std::max(box.high.x, high.x), std::max(box.high.y, high.y),
-                std::max(box.high.z, high.z)};
-}
-
-/// The coordinate in which a box is longest.
-double Point::*longest_axis(const Box& box) {
-    const Point size = minus(box.high, box.low);
-    if (size.x >= size.y && size.x >= size.z) return &Point::x;
-    return size.y >= size.z ? &Point::y : &Point::z;
+std::vector<Triangle> with_sorted_corners(std::vector<Triangle> triangles) {
+    for (Triangle& triangle : triangles) std::ranges::sort(triangle);
+    return triangles;
 }
 
 }  // namespace
@@ -93,81 +71,41 @@ double limit_of_boxes(double squared) {
     return limit * limit;
 }
 
-TriangleTree::TriangleTree(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
-    for (Triangle& triangle : triangles_) std::ranges::sort(triangle);
-    if (!triangles_.empty()) build(0, static_cast<std::uint32_t>(triangles_.size()));
+void extend_by(Box& box, const Box& other) {
+    const auto& [low, high] = other;
+    box.low = {std::min(box.low.x, low.x), std::min(box.low.y, low.y), std::min(box.low.z, low.z)};
+    box.high = {std::max(box.high.x, high.x), std::max(box.high.y, high.y),
+                std::max(box.high.z, high.z)};
 }
 
-// The depth is the logarithm of the number of triangles, as halves are equally large.
-void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
-    const std::size_t node = nodes_.size();
-    nodes_.push_back({box_of_triangle(triangles_[begin]), begin, end, 0});
-    for (std::uint32_t i = begin + 1; i < end; ++i) {
-        extend_by(nodes_[node].box, box_of_triangle(triangles_[i]));
-    }
-    if (end - begin <= leaf_size) return;
-    double Point::*const axis = longest_axis(nodes_[node].box);
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    const auto sum = [axis](const Triangle& t) {
-        return t[0].*axis / 3 + t[1].*axis / 3 + t[2].*axis / 3;
-    };
-    std::ranges::nth_element(triangles_.begin() + begin, triangles_.begin() + middle,
-                             triangles_.begin() + end, {}, sum);
-    build(begin, middle);
-    nodes_[node].right = static_cast<std::uint32_t>(nodes_.size());
-    build(middle, end);
+double Point::*longest_axis(const Box& box) {
+    const Point size = minus(box.high, box.low);
+    if (size.x >= size.y && size.x >= size.z) return &Point::x;
+    return size.y >= size.z ? &Point::y : &Point::z;
 }
 
-std::vector<Box> TriangleTree::boxes(std::size_t most) const {
-    if (nodes_.empty()) return {};
-    std::vector<std::uint32_t> front{0};
-    for (bool is_divided = true; is_divided && 2 * front.size() <= most;) {
-        is_divided = false;
-        std::vector<std::uint32_t> next;
-        for (const std::uint32_t node : front) {
-            if (nodes_[node].right == 0) {
-                next.push_back(node);
-                continue;
-            }
-            next.push_back(node + 1);
-            next.push_back(nodes_[node].right);
-            is_divided = true;
-        }
-        front = std::move(next);
+TriangleTree::TriangleTree(std::vector<Triangle> triangles)
+    : tree_(with_sorted_corners(std::move(triangles))) {}
+
+Box TriangleTree::BoxOfTriangle::operator()(const Triangle& triangle) const {
+    Box box{triangle[0], triangle[0]};
+    for (const Point& p : triangle) {
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
+                    std::max(box.high.z, p.z)};
     }
-    std::vector<Box> boxes;
-    for (const std::uint32_t node : front) boxes.push_back(nodes_[node].box);
-    return boxes;
+    return box;
 }
 
 double TriangleTree::least_squared_distance(const Point& p, double bound) const {
-    if (nodes_.empty()) return bound;
     double least = bound;
     double limit = limit_of_boxes(least);
-    struct Waiting {
-        std::uint32_t node;
-        double squared;
-    };
-    std::array<Waiting, 80> stack{};  // two for each level of the tree
-    std::size_t size = 0;
-    stack[size++] = {0, octetra::least_squared_distance(p, nodes_[0].box)};
-    while (size > 0) {
-        const auto [number, squared] = stack[--size];
-        if (squared > limit) continue;
-        const Node& node = nodes_[number];
-        if (node.right == 0) {
-            for (std::uint32_t i = node.begin; i < node.end; ++i) {
-                least = std::min(least, squared_distance(p, triangles_[i]));
-            }
-            limit = limit_of_boxes(least);
-            continue;
-        }
-        Waiting near{number + 1, octetra::least_squared_distance(p, nodes_[number + 1].box)};
-        Waiting far{node.right, octetra::least_squared_distance(p, nodes_[node.right].box)};
-        if (far.squared < near.squared) std::swap(near, far);
-        stack[size++] = far;
-        stack[size++] = near;
-    }
+    tree_.visit_near(p, limit, [&](const Triangle& triangle) {
+        const double squared = squared_distance(p, triangle);
+        if (!(squared < least)) return;
+        least = squared;
+        limit = limit_of_boxes(least);
+    });
     return least;
 }
 

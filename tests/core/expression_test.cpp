@@ -88,7 +88,7 @@ TEST(Expression, IsRefusedAtTheColumnOfTheError) {
     const std::vector<std::array<std::string, 2>> cases{
         {"", "column 1: a number or variable is missing at the end"},
         {"lenght > 1", "column 1: there is no variable lenght; there are x, y, z, volume"},
-        {"x > wall(1)", "column 5: there is no function wall; there are distance, field"},
+        {"x > wall(1)", "column 5: there is no function wall; there are distance, background"},
         {"x(1) > 2", "column 1: there is no function x;"},
         {"sqrt > 2", "column 1: sqrt takes arguments in parentheses"},
         {"x = 1", "column 3: = assigns; a comparison for equality is =="},
@@ -266,6 +266,31 @@ TEST(Expression, HasNoValueWhereAnOperationHasNone) {
     EXPECT_EQ(undefined_in("0 / 0").size(), 1000);
     EXPECT_EQ(test::thrown_by<InputError>([&] { (void)is_true("sqrt(-x)"); }),
               "sqrt(-x): the expression has no value in a cell");
+}
+
+TEST(Expression, ContainsGradedExpressions) {
+    const Expression expression("longest > 2 * graded( max(x, field(h)) + 1 , 1.25) and x < 1");
+    EXPECT_THAT(expression.terms(),
+                testing::ElementsAre(Term{Quantity::longest, "", 0},
+                                     Term{Quantity::graded, "max(x, field(h)) + 1", 1.25},
+                                     Term{Quantity::x, "", 0}));
+    EXPECT_EQ(text_of(expression.terms()[1]), "graded(max(x, field(h)) + 1, 1.25)");
+    EXPECT_TRUE(uses_history(where("x > graded(generation / 2, 2)")));
+    EXPECT_FALSE(uses_history(where("x > graded(x / 2, 2)")));
+    const auto refused = [](const std::string& text) {
+        return test::thrown_by<InputError>([&] { (void)Expression(text); });
+    };
+    const std::string wanted = "graded takes an expression and a number above 1";
+    for (const std::string text :
+         {"graded", "graded()", "graded(x)", "graded(x, 1)", "graded(x, y)", "graded(, 2)",
+          "graded(x, 1.5 + 1)", "graded(max(x, 2))", "graded(x, 2"}) {
+        EXPECT_THAT(refused(text), testing::HasSubstr(wanted)) << text;
+    }
+    EXPECT_THAT(refused("graded(x, 2, 3)"),
+                testing::HasSubstr("this comma separates no arguments"));
+    EXPECT_THAT(refused("graded(graded(x, 2), 2)"),
+                testing::HasSubstr("graded cannot contain graded"));
+    EXPECT_THAT(refused("graded(x +, 2)"), testing::HasSubstr("is missing"));
 }
 
 TEST(Expression, OfAMeshNeedsTheMesh) {

@@ -21,7 +21,8 @@ void add_marked_cells(const distributed::AdaptiveMesh& mesh, const Selection& se
                       const CarriedFields& fields, std::vector<std::uint8_t>& cell_to_mark) {
     Selection criteria = selection;
     criteria.cells.clear();
-    const std::vector<std::uint8_t> marked = mesh.marked_cells(criteria, fields.all);
+    const std::vector<std::uint8_t> marked =
+        mesh.marked_cells(criteria, fields.all, fields.backgrounds);
     for (std::size_t c = 0; c < marked.size(); ++c) cell_to_mark[c] |= marked[c];
 }
 

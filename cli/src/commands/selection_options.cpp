@@ -184,7 +184,8 @@ void group_criteria(const CLI::App& subcommand, SelectionOptions& options) {
         if (name == "where") take_next(group.where, options.where);
         if (name == "size") {
             take_next(group.sizes, options.sizes);
-            group.where.push_back(fmt::format("longest > ({})", target_size(group.sizes.back(), options.gradation)));
+            group.where.push_back(
+                fmt::format("longest > ({})", target_size(group.sizes.back(), options.gradation)));
         }
         for (const Abbreviation& abbreviation : abbreviations()) {
             if (name != abbreviation.option) continue;

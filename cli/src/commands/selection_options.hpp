@@ -33,7 +33,7 @@ struct SelectionOptions {
     std::optional<double> max_volume;
     std::vector<std::string> where;  ///< group_criteria() adds the expressions of the abbreviations
     std::map<std::string, std::vector<std::string>> abbreviated;  ///< the values of each option
-    std::optional<double> gradation;  ///< of all `sizes`
+    std::optional<double> gradation;                              ///< of all `sizes`
     std::vector<std::string> sizes;             ///< group_criteria() adds an expression for each
     std::vector<SelectionOptions> narrowed_by;  ///< the criteria after each --and
 };

@@ -8,7 +8,9 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/expression.hpp>
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/sol_files.hpp>
+#include <octetra/core/mesh_formats.hpp>
 
 #include "commands/abbreviations.hpp"
 #include "commands/number_options.hpp"
@@ -17,10 +19,12 @@ namespace octetra::cli {
 
 void add_size_option(CLI::App& subcommand, SelectionOptions& options, const std::string& group) {
     subcommand
-        .add_option("--size", options.sizes,
-                    "cells with an edge longer than this size: a number, an expression such as\n"
-                    "\"0.02 + distance(wall) / 4\", or a .sol or .solb file with sizes or metrics\n"
-                    "on the vertices or cells of MESH")
+        .add_option(
+            "--size", options.sizes,
+            "cells with an edge longer than this size: a number, an expression such as\n"
+            "\"0.02 + distance(wall) / 4\", or a file: .sol or .solb with sizes or metrics on\n"
+            "the vertices or cells of MESH; another mesh with sizes, .mesh or .meshb with a\n"
+            ".sol or .solb beside it, .msh with $NodeData or $ElementData, or .octetra")
         ->type_name("SIZE")
         ->allow_extra_args(false)
         ->group(group);
@@ -33,11 +37,19 @@ void add_size_option(CLI::App& subcommand, SelectionOptions& options, const std:
         ->group(group);
 }
 
-bool is_size_file(std::string_view value) { return is_sol(value); }
+bool is_background_file(std::string_view value) {
+    return sol_path_for(value).has_value() || is_checkpoint(value) ||
+           format_of(value) == Format::gmsh;
+}
+
+bool is_size_file(std::string_view value) { return is_sol(value) || is_background_file(value); }
 
 std::string target_size(const std::string& value, std::optional<double> gradation) {
     std::string size = value;
-    if (is_size_file(value)) size = fmt::format("size({})", quoted("--size", value));
+    if (is_size_file(value)) {
+        size = fmt::format("{}({})", is_background_file(value) ? "background" : "size",
+                           quoted("--size", value));
+    }
     if (gradation) size = fmt::format("graded({}, {})", size, *gradation);
     try {
         if (!is_size_file(value)) (void)Expression(value);  // whose errors show VALUE alone

@@ -70,7 +70,8 @@ std::vector<NamedFiles> files_read_by(const Script& script) {
             files.push_back(file_named("--cells", criteria->cells_file));
         }
         for (const std::string& file : size_files_of(*criteria)) {
-            files.push_back(file_named("--size", file));
+            files.push_back(is_background_file(file) ? mesh_named("--size", file)
+                                                     : file_named("--size", file));
         }
     }
     return files;

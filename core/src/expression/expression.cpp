@@ -39,10 +39,11 @@ constexpr std::array<QuantityName, 12> variables{{{"x", Quantity::x},
                                                   {"boundary", Quantity::boundary}}};
 
 /// Quantities with arguments: a name, and for the last two a number.
-constexpr std::array<QuantityName, 8> named_quantities{
+constexpr std::array<QuantityName, 9> named_quantities{
     {{"distance", Quantity::distance},
+     {"background", Quantity::background},
      {"graded", Quantity::graded},
- {"field", Quantity::field},
+     {"field", Quantity::field},
      {"field_max", Quantity::field_max},
      {"metric_longest", Quantity::metric_longest},
      {"size", Quantity::size},
@@ -255,8 +256,8 @@ private:
             at_ = begin;
             refuse_here(wanted);
         }
-        const std::string_view text = text_.substr(
-            tokens_[begin].begin, tokens_[comma].begin - tokens_[begin].begin);
+        const std::string_view text =
+            text_.substr(tokens_[begin].begin, tokens_[comma].begin - tokens_[begin].begin);
         put_term({Quantity::graded,
                   Expression(text.substr(0, text.find_last_not_of(" \t") + 1)).text(),
                   tokens_[comma + 1].number});

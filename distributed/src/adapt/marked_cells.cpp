@@ -1,6 +1,7 @@
 #include "adapt/marked_cells.hpp"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <octetra/core/error.hpp>
@@ -17,13 +18,22 @@ namespace {
 
 /// Collective, within a transaction.
 std::vector<std::uint8_t> select(const AdaptiveMesh::State& state, const Selection& selection,
-                                 std::span<const Field> fields) {
+                                 std::span<const Field> fields,
+                                 std::span<const Background> backgrounds) {
     if (!state.forgotten.empty() && uses_history(selection)) {
         throw InputError(
             "generation needs the history of the mesh, which was forgotten when cells moved: "
             "recall it, or do not allow this");
     }
-    return select_cells(state.mesh, selection, {fields, &state.sharing, &state.numbers});
+    return select_cells(state.mesh, selection,
+                        {fields, &state.sharing, &state.numbers, backgrounds});
+}
+
+/// Collective.
+void check_same_names(const Communicator& processes, std::span<const Background> backgrounds) {
+    std::string names;
+    for (const Background& background : backgrounds) names += background.name() + "; ";
+    processes.check_same("backgrounds", names);
 }
 
 }  // namespace
@@ -35,17 +45,19 @@ std::function<MarkedCells()> marks_of(const AdaptiveMesh::State& state,
     if (state.mesh.processes.max(is_compound_here ? 1 : 0) == 0) {
         return [&] { return mark_cells(state.mesh, selection, false); };
     }
-    return [&] { return marked_by_bytes(state.mesh, select(state, selection, {})); };
+    return [&] { return marked_by_bytes(state.mesh, select(state, selection, {}, {})); };
 }
 
-std::vector<std::uint8_t> AdaptiveMesh::marked_cells(const Selection& selection,
-                                                     std::span<const Field> fields) const {
+std::vector<std::uint8_t> AdaptiveMesh::marked_cells(
+    const Selection& selection, std::span<const Field> fields,
+    std::span<const Background> backgrounds) const {
     const StandardArithmetic standard;
     const Phase phase(processes(), "select");
     return processes().transaction([&] {
         check_sizes(state_->mesh, fields);
         check_same(processes(), fields);
-        return select(*state_, selection, fields);
+        check_same_names(processes(), backgrounds);
+        return select(*state_, selection, fields, backgrounds);
     });
 }
 

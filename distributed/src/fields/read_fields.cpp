@@ -1,5 +1,6 @@
 #include "fields/read_fields.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/sol_files.hpp>
+#include <octetra/core/mesh_formats.hpp>
 #include <octetra/core/sol_fields.hpp>
 
 #include "fields/requested_values.hpp"
@@ -42,7 +44,9 @@ void broadcast_headers(const Communicator& processes, std::vector<FieldRows>& li
 SolFields read_on_first(const Communicator& processes, const std::filesystem::path& path,
                         const EntityCounts& counts) {
     SolFields alone;
-    if (processes.is_first()) alone = read_sol(path, counts);
+    if (processes.is_first()) {
+        alone = is_sol(path) ? read_sol(path, counts) : read_msh_data(path, counts);
+    }
     broadcast_headers(processes, alone.lists);
     return alone;
 }
@@ -59,7 +63,7 @@ Field field_of_rows(const FieldRows& list, const std::vector<double>& rows, std:
             values.push_back(rows[row + first_component + sol_component_position(k, components)]);
         }
     }
-    return {sol_field_name(number + 1), list.on, components, std::move(values)};
+    return {"", list.on, components, std::move(values)};
 }
 
 }  // namespace
@@ -69,15 +73,15 @@ std::vector<Field> read_fields(const DistributedMesh& mesh, std::span<const Cell
                                const std::function<void(const std::string&)>& note) {
     const Communicator& processes = mesh.processes;
     const CanonicalRuns runs = processes.transaction([&] {
-        if (!is_sol(path)) {
+        if (!is_sol(path) && format_of(path) != Format::gmsh) {
             throw InputError(
-                fmt::format("{}: files of values end in .sol or .solb", path.native()));
+                fmt::format("{}: files of values end in .sol, .solb or .msh", path.native()));
         }
         return canonical_runs(processes, mesh.cell_ancestors);
     });
     const EntityCounts counts{numbers.vertex_count, runs.count};
     std::optional<SolFields> shares;
-    if (processes.size() > 1) shares = read_sol_share(path, counts, processes);
+    if (processes.size() > 1 && is_sol(path)) shares = read_sol_share(path, counts, processes);
     return processes.transaction([&] {
         const SolFields read = shares ? *std::move(shares) : read_on_first(processes, path, counts);
         std::vector<Field> fields;
@@ -93,6 +97,8 @@ std::vector<Field> read_fields(const DistributedMesh& mesh, std::span<const Cell
             std::size_t first_component = 0;
             for (std::size_t f = 0; f < list.components.size(); ++f) {
                 fields.push_back(field_of_rows(list, rows, f, first_component));
+                fields.back().name = sol_field_name(
+                    static_cast<std::size_t>(std::ranges::count(fields, list.on, &Field::on)));
                 first_component += list.components[f];
             }
         }

@@ -12,40 +12,10 @@
 #include <octetra/core/triangle_tree.hpp>
 
 #include "level/incremental/adjacency.hpp"
-#include "mark/selection_bounds.hpp"
+#include "select/boxes_of_others.hpp"
 
 namespace octetra::distributed {
 namespace {
-
-/// Boxes that a process sends to all others in place of its facets.
-constexpr std::size_t most_boxes = 64;
-
-/// Collective. Returns the lists of all processes, by rank.
-template <class T>
-std::vector<std::vector<T>> lists_of_all(const Communicator& processes, std::vector<T> list) {
-    const auto bytes = std::as_bytes(std::span<const T>(list));
-    std::vector<std::vector<T>> lists;
-    for (const ProcessGroup::Bytes& received : processes.of_all({bytes.begin(), bytes.end()})) {
-        std::vector<T>& of_rank = lists.emplace_back(received.size() / sizeof(T));
-        if (!received.empty()) std::memcpy(of_rank.data(), received.data(), received.size());
-    }
-    return lists;
-}
-
-/// Collective. Returns the exponent of the unit of length in which the mesh has an extent of about
-/// 1.
-int common_exponent(const DistributedMesh& mesh) {
-    Box box = empty_box;
-    for (const Point& p : mesh.points) extend(box, p);
-    for (const auto& boxes : lists_of_all(mesh.processes, std::vector<Box>{box})) {
-        if (boxes[0].low.x > boxes[0].high.x) continue;  // that process has no vertices
-        extend(box, boxes[0].low);
-        extend(box, boxes[0].high);
-    }
-    const auto& [low, high] = box;
-    return exponent_of_extent(
-        std::max({high.x / 2 - low.x / 2, high.y / 2 - low.y / 2, high.z / 2 - low.z / 2}));
-}
 
 /// Collective. Throws InputError, which lists the markers of all processes.
 [[noreturn]] void refuse_marker_of_all(const DistributedMesh& mesh, const Term& term) {
@@ -85,48 +55,6 @@ std::vector<Triangle> facets_with(const DistributedMesh& mesh, const std::vector
     }
     return triangles;
 }
-
-/// The boxes of the facets of the other processes.
-class BoxesOfOthers {
-public:
-    BoxesOfOthers(std::vector<std::vector<Box>> boxes, int own_rank) : boxes_(std::move(boxes)) {
-        boxes_[static_cast<std::size_t>(own_rank)].clear();
-        for (const auto& of_rank : boxes_) {
-            Box all = empty_box;
-            for (const Box& box : of_rank) {
-                extend(all, box.low);
-                extend(all, box.high);
-            }
-            all_.push_back(all);
-        }
-    }
-
-    /// Returns an upper bound of the squared distance to the facets of others: each box has one.
-    [[nodiscard]] double bound(const Point& p, double bound) const {
-        for (std::size_t r = 0; r < boxes_.size(); ++r) {
-            if (boxes_[r].empty() || least_squared_distance(p, all_[r]) > bound) continue;
-            for (const Box& box : boxes_[r]) {
-                bound = std::min(bound, greatest_squared_distance(p, box));
-            }
-        }
-        return bound;
-    }
-    /// Calls visit(r) for the processes that may have a facet as near as `squared`.
-    void for_each_within(const Point& p, double squared, auto&& visit) const {
-        const double limit = limit_of_boxes(squared);
-        const auto is_within = [&](const Box& box) {
-            return least_squared_distance(p, box) <= limit;
-        };
-        for (std::size_t r = 0; r < boxes_.size(); ++r) {
-            if (boxes_[r].empty() || !is_within(all_[r])) continue;
-            if (std::ranges::any_of(boxes_[r], is_within)) visit(r);
-        }
-    }
-
-private:
-    std::vector<std::vector<Box>> boxes_;  ///< by rank
-    std::vector<Box> all_;                 ///< their bounding boxes
-};
 
 struct Query {
     Point point;

@@ -13,6 +13,7 @@
 
 #include "level/incremental/adjacency.hpp"
 #include "numbering/cell_numbers.hpp"
+#include "select/background_values.hpp"
 #include "select/facet_distances.hpp"
 #include "select/field_values.hpp"
 #include "select/graded_sizes.hpp"
@@ -101,6 +102,7 @@ private:
                                       mesh.midpoint_to_edge);
             case Quantity::boundary: return boundary_of(mesh);
             case Quantity::distance: return facet_distances(mesh, term);
+            case Quantity::background: return background_values(mesh, term, fields_->backgrounds);
             case Quantity::graded: return graded(term);
             default: return field_values(mesh, term, *fields_);
         }
@@ -108,8 +110,7 @@ private:
 
     [[nodiscard]] std::vector<double> graded(const Term& term) const {
         const Selection alone{.where = {Expression(term.name)}};
-        EvaluatedCells sizes =
-            evaluate(alone.where[0], mesh_->cells.size(), *cells_, of(alone));
+        EvaluatedCells sizes = evaluate(alone.where[0], mesh_->cells.size(), *cells_, of(alone));
         check_defined(*mesh_, alone, sizes.undefined);
         return graded_sizes(*mesh_, std::move(sizes.values), term.share);
     }

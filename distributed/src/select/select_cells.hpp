@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <octetra/core/selection.hpp>
+#include <octetra/distributed/background.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/field.hpp>
 #include <octetra/distributed/sharing.hpp>
@@ -19,6 +20,7 @@ struct FieldsToUse {
     // of the mesh, if there are fields
     const Sharing<VertexIndex>* sharing = nullptr;
     const CanonicalNumbers* numbers = nullptr;
+    std::span<const Background> backgrounds = {};  ///< the same on all processes
 };
 
 /// Collective, within a transaction. Returns a byte for each cell of this process: 1 if the

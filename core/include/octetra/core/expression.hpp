@@ -26,10 +26,11 @@ enum class Quantity : std::uint8_t {
     // of the mesh around the cell; see is_external()
     generation,
     boundary,
-    distance,        ///< to the tagged facets with the marker or group name `name`
-    graded,  ///< the value of the expression `name`, growing by at most `share` - 1 per length
-    field,  ///< the value, or the mean over the corners, of the field `name`
-    field_max,       ///< likewise, with the maximum over the corners
+    distance,    ///< to the tagged facets with the marker or group name `name`
+    background,  ///< the value of the field `name` of a background mesh at the centroid
+    graded,      ///< the value of the expression `name`, growing by at most `share` - 1 per length
+    field,       ///< the value, or the mean over the corners, of the field `name`
+    field_max,   ///< likewise, with the maximum over the corners
     metric_longest,  ///< the length of the longest edge in the metric `name`
     size,            ///< the length that the field or metric `name` allows an edge
     bulk,      ///< 1 if bulk marking of the field `name` with the fraction `share` marks the cell

@@ -37,8 +37,8 @@ namespace octetra {
 [[nodiscard]] Point scaled_by(const Point& p, int exponent);
 
 /// Returns the values of the external terms of a selection for a whole mesh with these maps from
-/// its input. Throws InputError for fields, which a Mesh does not have, and for markers that no
-/// facet has.
+/// its input. Throws InputError for fields, which a Mesh does not have, for background meshes and
+/// graded sizes, and for markers that no facet has.
 [[nodiscard]] TermValues term_values(const Selection& selection, const Mesh& mesh,
                                      const RefinementMaps& maps);
 

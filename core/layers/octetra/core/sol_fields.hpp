@@ -35,7 +35,7 @@ struct FieldRows {
 };
 
 struct SolFields {
-    std::vector<FieldRows> lists;    ///< at most one on vertices and one on cells
+    std::vector<FieldRows> lists;    ///< of a Medit file at most one on vertices and one on cells
     std::vector<std::string> notes;  ///< on data not kept; equal on all processes
 };
 
@@ -44,6 +44,12 @@ struct SolFields {
 /// also if the number of rows differs from `expected`; or SystemError.
 [[nodiscard]] SolFields read_sol(const std::filesystem::path& path,
                                  const std::optional<EntityCounts>& expected);
+
+/// Reads the sections $NodeData and $ElementData of a Gmsh file `.msh`, each a list with one field
+/// of 1, 3 or 9 components, whose rows are in the order of the nodes, or of the tetrahedra. Throws
+/// as read_sol(), also for a node or tetrahedron without a value.
+[[nodiscard]] SolFields read_msh_data(const std::filesystem::path& path,
+                                      const EntityCounts& expected);
 
 /// Collective; not to be called within a transaction. Every process reads an even share of the
 /// file, in the order of ranks. Returns nothing on all processes if read_sol() would reject it, or

@@ -18,6 +18,7 @@
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/adaptation.hpp>
+#include <octetra/distributed/background.hpp>
 #include <octetra/distributed/balance.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
@@ -177,13 +178,22 @@ public:
     /// Collective. Returns a byte for each cell of this process: 1 if the selection marks it, else
     /// 0. The same cells are marked on any number of processes. `fields`, values of this mesh's
     /// vertices and cells, are those that expressions may use; on a vertex that several processes
-    /// have, the owner's value counts. The expressions must be the same on all processes.
+    /// have, the owner's value counts; `backgrounds` likewise are those of background(). The
+    /// expressions must be the same on all processes.
     ///
     /// Throws InputError on all processes if a criterion is invalid, if an expression has no value
-    /// in some cell (0/0, sqrt(-1)) or uses a field or marker that does not exist, the generation
-    /// while has_forgotten_history(), or if fields do not fit the mesh.
-    [[nodiscard]] std::vector<std::uint8_t> marked_cells(const Selection& selection,
-                                                         std::span<const Field> fields = {}) const;
+    /// in some cell (0/0, sqrt(-1)) or uses a field, background or marker that does not exist, the
+    /// generation while has_forgotten_history(), or if fields do not fit the mesh.
+    [[nodiscard]] std::vector<std::uint8_t> marked_cells(
+        const Selection& selection, std::span<const Field> fields = {},
+        std::span<const Background> backgrounds = {}) const;
+
+    /// Collective. Returns a copy of this mesh with a field of one component, to be used as a
+    /// background mesh by marked_cells() of any mesh of the same group of processes. Values of
+    /// vertices are interpolated linearly; on a vertex that several processes have, the owner's
+    /// value counts. Throws InputError on all processes if the field does not fit this mesh or has
+    /// several components.
+    [[nodiscard]] Background as_background(std::string name, const Field& field) const;
 
     /// Collective. Migrates cells from processes with many to processes with few, if the numbers
     /// are too different and migration improves them. A cell of the input migrates with all its
@@ -319,9 +329,10 @@ public:
     /// roots. Throws InputError on all processes for invalid or differing options.
     [[nodiscard]] Levels levels(const LevelOptions& options = {}) const;
 
-    /// Collective. Reads the fields of a Medit solution file, `.sol` or `.solb`, with values of
-    /// this mesh's vertices and cells in the order of its files; they are named sol_1, sol_2 ... on
-    /// vertices, and likewise on cells. Every process reads a share of the file. On the first
+    /// Collective. Reads the fields of a Medit solution file, `.sol` or `.solb`, or of the sections
+    /// $NodeData and $ElementData of a Gmsh file of this mesh, `.msh`, with values of this mesh's
+    /// vertices and cells in the order of its files; they are named sol_1, sol_2 ... on vertices,
+    /// and likewise on cells. Every process reads a share of a Medit file. On the first
     /// process `note` is called with a sentence for data in the file that are not in the result.
     /// Throws InputError ("FILE:LINE: what is wrong"; for a binary file "FILE: at byte N: ...") if
     /// the file is invalid or does not fit the mesh.

@@ -64,6 +64,12 @@ public:
         const double y = coordinate("y");
         return {x, y, coordinate("z")};
     }
+    [[nodiscard]] double real(std::string_view what) {
+        const std::uint64_t begin = reader_->position();
+        const auto value = reader_->take<double>(what);
+        if (std::abs(value) < coordinate_limit) return value;
+        fail_at(fmt::format("{} is not finite and below 2^1023: {}", what, value), begin);
+    }
     void skip_real(std::string_view what) { reader_->skip(sizeof(double), what); }
     /// Reads a row: the number of an element, which is ignored, and its nodes.
     template <std::size_t N>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -115,6 +116,13 @@ public:
         const double x = tokens_.coordinate("x");
         const double y = tokens_.coordinate("y");
         return {x, y, tokens_.coordinate("z")};
+    }
+    /// Reads a value, which must be finite, and less than coordinate_limit, as means must be.
+    [[nodiscard]] double real(std::string_view what) {
+        tokens_.require(what);
+        const double value = tokens_.real(what);
+        if (std::abs(value) < coordinate_limit) return value;
+        reader_->fail(fmt::format("{} is not finite and below 2^1023: {}", what, value));
     }
     /// Skips a number.
     void skip_real(std::string_view what) {

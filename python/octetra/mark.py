@@ -8,6 +8,7 @@ from ._octetra.mark import (
     maximum as maximum,
     random as random,
     region as region,
+    size as size,
     sphere as sphere,
     where as where,
 )

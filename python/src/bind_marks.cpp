@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -16,6 +17,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "fields.hpp"
+#include "values.hpp"
 
 namespace octetra::python {
 namespace {
@@ -80,6 +82,43 @@ py::array marks_where(const Arguments& arguments) {
         fields = fields_of(py::reinterpret_borrow<py::object>(on_vertices),
                            py::reinterpret_borrow<py::object>(on_cells), mesh.vertex_count(),
                            mesh.cell_count());
+    });
+    return booleans(
+        mesh.ask([&](const od::AdaptiveMesh& now) { return now.marked_cells(selection, fields); }));
+}
+
+/// The expression of a target size: an expression as it is, a number, or sizes or metrics of the
+/// vertices, which become a field.
+std::string size_from(const Mesh& mesh, const py::handle& given, std::vector<od::Field>& fields) {
+    if (py::isinstance<py::str>(given)) return Expression(string_from("size", given)).text();
+    if (py::isinstance<py::float_>(given) || py::isinstance<py::int_>(given)) {
+        return fmt::format("{}", number_from("size", given));
+    }
+    const char* const name = "size of the argument";
+    const Values values = values_for(given, mesh.vertex_count(), "vertices");
+    with_number_type(values.array, [&]<class T>(T) {
+        fields.push_back({name, FieldOn::vertices, values.components, values.copy<T>()});
+    });
+    return fmt::format("size(\"{}\")", name);
+}
+
+/// Collective. The marks of cells with an edge longer than a target size.
+py::array marks_by_size(const Arguments& arguments) {
+    Mesh& mesh = mesh_in(arguments);
+    Selection selection;
+    std::vector<od::Field> fields;
+    convert_on_each(mesh.processes(), [&] {
+        const auto [itself, given, gradation, on_vertices, on_cells] = arguments.values<5>();
+        fields = fields_of(py::reinterpret_borrow<py::object>(on_vertices),
+                           py::reinterpret_borrow<py::object>(on_cells), mesh.vertex_count(),
+                           mesh.cell_count());
+        std::string size = size_from(mesh, given, fields);
+        if (!gradation.is_none()) {
+            const double limit = number_from("gradation", gradation);
+            if (!(limit > 1 && std::isfinite(limit))) refuse("gradation", "above 1", gradation);
+            size = fmt::format("graded({}, {})", size, limit);
+        }
+        selection.where.emplace_back(fmt::format("longest > ({})", size));
     });
     return booleans(
         mesh.ask([&](const od::AdaptiveMesh& now) { return now.marked_cells(selection, fields); }));
@@ -174,6 +213,16 @@ void bind_marks(py::module_& module) {
         "as \"distance(wall) < 0.1 and longest > 0.02\". As --where.\n\n"
         "expression: the same on all ranks. vertex_fields, cell_fields: {name: array}, the "
         "values that field(name) uses.");
+    def_function(
+        mark, "size", "mesh, size, gradation=None, vertex_fields=None, cell_fields=None",
+        &marks_by_size,
+        "Collective. bool (cells,): marks the cells with an edge longer than the target size. As "
+        "--size and --gradation.\n\n"
+        "size: a number, an expression such as \"0.02 + distance(wall) / 4\", or an array of the "
+        "vertices: sizes (vertices,), of which the mean over a cell's vertices counts, or metrics "
+        "(vertices, 6) with the components xx, yy, zz, xy, yz, xz. gradation: the size grows from "
+        "a cell to the next by at most gradation - 1 for each unit of length. vertex_fields, "
+        "cell_fields: {name: array}, the values that size(name) and field(name) use.");
 }
 
 }  // namespace octetra::python

@@ -79,6 +79,29 @@ def test_expressions_use_the_fields_of_the_arguments(mesh):
     assert np.array_equal(high, (corners.max(axis=1) > 0.8) & (index >= 5))
 
 
+def test_sizes_are_those_of_the_vertices(mesh):
+    x, y, z = np.asarray(mesh.points).T
+    corners = np.asarray(mesh.points)[np.asarray(mesh.cells)]
+    edges = [corners[:, i] - corners[:, j] for i in range(4) for j in range(i)]
+    longest = np.max([np.linalg.norm(edge, axis=1) for edge in edges], axis=0)
+    size = 0.1 + x / 2
+    expected = longest > size[np.asarray(mesh.cells)].mean(axis=1)
+    assert 0 < total(expected.sum()) < total(len(expected))
+    assert np.array_equal(octetra.mark.size(mesh, size), expected)
+    assert np.array_equal(octetra.mark.size(mesh, "2 * size(h)", vertex_fields={"h": size / 2}), expected)
+    assert np.array_equal(octetra.mark.size(mesh, 0.3), longest > 0.3)
+    # A metric that is isotropic: lengths are divided by the size.
+    metric = np.zeros((len(x), 6))
+    metric[:, :3] = 1 / 0.3**2
+    assert np.array_equal(octetra.mark.size(mesh, metric), longest > 0.3)
+    # The sizes of cells grow from that of a corner.
+    near = (corners.mean(axis=1) < 0.2).all(axis=1)
+    sharp = np.where(near, 0.01, 9.0)
+    graded = octetra.mark.size(mesh, "size(h)", 1.5, cell_fields={"h": sharp})
+    assert total((longest > sharp).sum()) < total(graded.sum())
+    assert np.array_equal(octetra.mark.size(mesh, "size(h)", 1e6, cell_fields={"h": sharp}), longest > sharp)
+
+
 def test_regions_have_the_names_of_the_file(folder):
     box = pathlib.Path(__file__).resolve().parents[2] / "corpus/meshes/gmsh-box-22.msh"
     mesh = octetra.read(box)

@@ -302,6 +302,21 @@ TEST(RegularMesh, RefusesOtherSchemesAndAnotherClosureByName) {
     EXPECT_TRUE(before == test::ObservedMesh(mesh));
 }
 
+/// Cells have migrated when the step is found to be too large.
+TEST(RegularMesh, IsAsItWasAfterAFailingEvenStep) {
+    const Mesh input = test::kuhn(2, 2, 2);
+    AdaptiveMesh mesh =
+        AdaptiveMesh::distribute(test::world(), input, std::vector<int>(input.cells.size(), 0));
+    (void)mesh.refine(cells_at_random(0.2, 1), regular);
+    const test::ObservedMesh before(mesh);
+    StepOptions few = regular;
+    few.max_cells = test::world().sum(mesh.cells().size()) + 1;
+    EXPECT_THROW((void)mesh.refine_evenly(Selection{.all = true}, {}, few), InputError);
+    EXPECT_TRUE(before == test::ObservedMesh(mesh));
+    EXPECT_TRUE(mesh.refine_evenly(Selection{.all = true}, {}, regular).step.changed);
+    EXPECT_GT(mesh.cells().size(), 0U);
+}
+
 TEST(RegularMesh, OfTheInputCanBeRefinedWithAnyClosure) {
     AdaptiveMesh mesh = mesh_in_parts(test::kuhn(1, 1, 1), "block");
     (void)mesh.refine({.all = true}, regular);

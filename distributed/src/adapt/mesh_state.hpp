@@ -8,6 +8,7 @@
 
 #include "history/cells_as_roots.hpp"
 #include "history/history.hpp"
+#include "level/incremental/adjacency.hpp"
 #include "level/marked_cells.hpp"
 #include "level/planned_level.hpp"
 #include "level/transition_cells.hpp"
@@ -69,7 +70,8 @@ struct AdaptiveMesh::State {
 [[nodiscard]] EvenStep refine_state_evenly_and_regularly(AdaptiveMesh::State& state,
                                                          const std::function<MarkedCells()>& mark,
                                                          const BalanceOptions& balance,
-                                                         const StepOptions& options);
+                                                         const StepOptions& options,
+                                                         const Tuning& tuning = {});
 
 /// Collective. Coarsens marked cells by one generation.
 [[nodiscard]] Adaptation coarsen_state(AdaptiveMesh::State& state,
@@ -97,6 +99,22 @@ struct MovedState {
 /// Collective, within a transaction. Moves a mesh that has only its history, in canonical order,
 /// into a state. The mesh is unchanged if this throws on any process.
 [[nodiscard]] std::unique_ptr<AdaptiveMesh::State> state_of(DistributedMesh& mesh);
+
+/// A migration of roots that makes the numbers of cells of the processes more even.
+struct EvenMigration {
+    std::unique_ptr<CanonicalOrder> order;  ///< the order of the mesh while this exists
+    std::unique_ptr<CellsAsRoots> roots;    ///< likewise its roots, or null if unchanged
+    MovedState to;                          ///< the state is null if nothing moves
+
+    /// Replaces the state by `to`, if anything moves. Returns the migration.
+    [[nodiscard]] Migration commit(AdaptiveMesh::State& state) noexcept;
+};
+
+/// Collective, within a transaction. Returns the migration of roots if the processes have too
+/// different numbers of cells. Only the order and the roots of the mesh change, as long as the
+/// result exists.
+[[nodiscard]] EvenMigration even_migration(AdaptiveMesh::State& state,
+                                           const BalanceOptions& balance);
 
 /// Collective. Migrates roots if the processes have too different numbers of cells.
 [[nodiscard]] Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& options);

@@ -171,32 +171,41 @@ Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of
     return replace(state, *order, std::move(after), nullptr);
 }
 
+EvenMigration even_migration(AdaptiveMesh::State& state, const BalanceOptions& balance) {
+    const Communicator& processes = state.mesh.processes;
+    const auto count = static_cast<std::uint64_t>(state.mesh.cells.size());
+    const auto mean =
+        static_cast<double>(processes.sum(count)) / static_cast<double>(processes.size());
+    if (static_cast<double>(processes.max(count)) <= balance.most_over_mean * mean) {
+        return {nullptr, nullptr, {nullptr, unmoved(state.mesh)}};
+    }
+    EvenMigration even{std::make_unique<CanonicalOrder>(state.mesh), nullptr, {}};
+    const auto weigh = [&] { return cells_of_roots(state.mesh); };
+    BalanceOptions options = balance;
+    options.may_forget_history =
+        balance.may_forget_history && state.mesh.closure != Closure::regular;
+    const auto ranks = even_parts_or_roots(state.mesh, weigh, options, even.roots, &state.numbers);
+    if (!ranks) return {nullptr, nullptr, {nullptr, unmoved(state.mesh)}};
+    const Phase phase(processes, "migrate");
+    state.forgotten.reserve(state.forgotten.size() + 1);
+    even.to = moved_state(state, even.order->cells_before(), *ranks);
+    return even;
+}
+
+Migration EvenMigration::commit(AdaptiveMesh::State& state) noexcept {
+    if (to.state == nullptr) return std::move(to.migration);
+    return replace(state, *order, std::move(to), std::move(roots));
+}
+
 Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& options) {
     const StandardArithmetic standard;
     const Communicator& processes = state.mesh.processes;
-    std::optional<CanonicalOrder> order;
-    std::unique_ptr<CellsAsRoots> roots;
-    MovedState after = processes.transaction([&]() -> MovedState {
-        check_same(processes, options);
-        const auto count = static_cast<std::uint64_t>(state.mesh.cells.size());
-        const auto mean =
-            static_cast<double>(processes.sum(count)) / static_cast<double>(processes.size());
-        if (static_cast<double>(processes.max(count)) <= options.most_over_mean * mean) {
-            return {nullptr, unmoved(state.mesh)};
-        }
-        order.emplace(state.mesh);
-        const auto weigh = [&] { return cells_of_roots(state.mesh); };
-        BalanceOptions balance = options;
-        balance.may_forget_history =
-            balance.may_forget_history && state.mesh.closure != Closure::regular;
-        const auto ranks = even_parts_or_roots(state.mesh, weigh, balance, roots, &state.numbers);
-        if (!ranks) return {nullptr, unmoved(state.mesh)};
-        const Phase phase(processes, "migrate");
-        state.forgotten.reserve(state.forgotten.size() + 1);
-        return moved_state(state, order->cells_before(), *ranks);
-    });
-    if (after.state == nullptr) return std::move(after.migration);
-    return replace(state, *order, std::move(after), std::move(roots));
+    return processes
+        .transaction([&] {
+            check_same(processes, options);
+            return even_migration(state, options);
+        })
+        .commit(state);
 }
 
 Migration recall_history(AdaptiveMesh::State& state) {

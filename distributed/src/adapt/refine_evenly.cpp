@@ -18,7 +18,7 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
                              const Tuning& tuning) {
     const StandardArithmetic standard;
     if (options.closure == Closure::regular) {
-        return refine_state_evenly_and_regularly(state, mark, balance, options);
+        return refine_state_evenly_and_regularly(state, mark, balance, options, tuning);
     }
     const Communicator processes = state.mesh.processes;
     const int level = state.step_count + 1;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <octetra/core/error.hpp>
+#include <octetra/distributed/profile.hpp>
 
 #include "adapt/marks.hpp"
 #include "adapt/mesh_state.hpp"
@@ -15,12 +16,27 @@
 namespace octetra::distributed {
 namespace {
 
-/// Lists all cells if all are marked.
-MarkedCells listed(MarkedCells marked, std::size_t count) {
+/// Collective, within a transaction. Checks the options and returns the list of marked cells.
+MarkedCells listed_cells(const AdaptiveMesh::State& state, const std::function<MarkedCells()>& mark,
+                         const StepOptions& options) {
+    check_same(state.mesh.processes, options);
+    check_closure(state, options);
+    MarkedCells marked = mark();
+    if (!marked.edges.empty()) {
+        throw InputError("edges cannot be marked with the regular closure, only cells");
+    }
     if (!marked.all) return marked;
     marked.all = false;
-    for (std::size_t c = 0; c < count; ++c) marked.cells.push_back(CellIndex{c});
+    for (std::size_t c = 0; c < state.mesh.cells.size(); ++c) marked.cells.push_back(CellIndex{c});
     return marked;
+}
+
+/// The same cells after a migration.
+MarkedCells moved_cells(const MarkedCells& marked, const AdaptiveMesh::State& state,
+                        const MovedState& to) {
+    std::vector<std::uint8_t> marks(state.mesh.cells.size(), 0);
+    for (const CellIndex c : marked.cells) marks[c.value()] = 1;
+    return marked_by_bytes(to.state->mesh, to.migration.cells(std::move(marks)));
 }
 
 }  // namespace
@@ -31,12 +47,7 @@ Adaptation refine_state_regularly(AdaptiveMesh::State& state,
     DistributedMesh& mesh = state.mesh;
     std::optional<RegularStep> step;
     const bool changes_anything = mesh.processes.transaction([&] {
-        check_same(mesh.processes, options);
-        check_closure(state, options);
-        const MarkedCells marked = listed(mark(), mesh.cells.size());
-        if (!marked.edges.empty()) {
-            throw InputError("edges cannot be marked with the regular closure, only cells");
-        }
+        const MarkedCells marked = listed_cells(state, mark, options);
         return step.emplace(state, level_options(options), tuning).plan(marked);
     });
     if (!changes_anything) return unchanged(mesh);
@@ -46,20 +57,26 @@ Adaptation refine_state_regularly(AdaptiveMesh::State& state,
 EvenStep refine_state_evenly_and_regularly(AdaptiveMesh::State& state,
                                            const std::function<MarkedCells()>& mark,
                                            const BalanceOptions& balance,
-                                           const StepOptions& options) {
-    std::vector<std::uint8_t> marks;
-    state.mesh.processes.transaction([&] {
-        check_same(state.mesh.processes, options);
-        check_closure(state, options);
-        check_same(state.mesh.processes, balance);
-        const MarkedCells marked = listed(mark(), state.mesh.cells.size());
-        marks.resize(state.mesh.cells.size(), 0);
-        for (const CellIndex c : marked.cells) marks[c.value()] = 1;
+                                           const StepOptions& options, const Tuning& tuning) {
+    const Communicator processes = state.mesh.processes;
+    const Phase phase(processes, "level", state.step_count + 1);
+    EvenMigration even;
+    std::optional<RegularStep> step;  // of the moved state, if there is one
+    const bool changes_anything = processes.transaction([&] {
+        check_same(processes, balance);
+        MarkedCells marked = listed_cells(state, mark, options);
+        even = even_migration(state, balance);
+        if (even.to.state != nullptr) marked = moved_cells(marked, state, even.to);
+        AdaptiveMesh::State& of_step = even.to.state != nullptr ? *even.to.state : state;
+        return step.emplace(of_step, level_options(options), tuning).plan(marked);
     });
-    Migration move = rebalance_state(state, balance);
-    marks = move.cells(std::move(marks));
-    const auto moved_marks = [&] { return marked_by_bytes(state.mesh, marks); };
-    return {std::move(move), state.refine(moved_marks, options)};
+    if (!changes_anything) step.reset();
+    EvenStep done;
+    if (step) done.step = step->commit();
+    step.reset();
+    done.move = even.commit(state);
+    if (!changes_anything) done.step = unchanged(state.mesh);
+    return done;
 }
 
 }  // namespace octetra::distributed

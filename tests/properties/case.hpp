@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <octetra/core/closure.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/refine.hpp>
@@ -43,6 +44,7 @@ struct Case {
     Mesh mesh;         ///< valid according to the verifier
     Selection selection;
     Scheme scheme = Scheme::eight;
+    Closure closure = Closure::longest_edge;  ///< of all levels and steps; see regular()
     int levels = 1;
     distributed::Synchronisation synchronisation = distributed::Synchronisation::neighbour;
     /// The rank of each cell. Ranks are taken modulo the number of ranks of the run.
@@ -56,6 +58,19 @@ struct Case {
 /// Removes the steps that begin a new history, for laws that inspect a single input.
 [[nodiscard]] inline Case without_rewrites(Case c) {
     std::erase_if(c.steps, [](const Step& step) { return step.action == Action::rewrite; });
+    return c;
+}
+
+/// The case with Closure::regular and the scheme that it requires. Steps are not taken back: with
+/// this closure, the children of a refinement may be descendants of a parent that it did not
+/// bisect.
+[[nodiscard]] inline Case regular(Case c) {
+    c.closure = Closure::regular;
+    c.scheme = Scheme::eight;
+    std::erase_if(c.steps, [](const Step& step) {
+        return step.action == Action::take_back || step.action == Action::again;
+    });
+    for (Step& step : c.steps) step.scheme = Scheme::eight;
     return c;
 }
 

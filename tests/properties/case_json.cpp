@@ -65,6 +65,10 @@ std::string name_of(Scheme scheme) {
     return scheme == Scheme::eight ? "8t" : scheme == Scheme::four ? "4t" : "2t";
 }
 
+Closure closure_of(const std::string& name) {
+    return name == "regular" ? Closure::regular : Closure::longest_edge;
+}
+
 Scheme scheme_of(const std::string& name) {
     return name == "8t" ? Scheme::eight : name == "4t" ? Scheme::four : Scheme::two;
 }
@@ -100,6 +104,7 @@ json json_of(const Case& c) {
     json j{{"kind", c.kind},
            {"selection", json_of(c.selection)},
            {"scheme", name_of(c.scheme)},
+           {"closure", c.closure == Closure::regular ? "regular" : "longest-edge"},
            {"levels", c.levels},
            {"sync", c.synchronisation == Synchronisation::gateway ? "gateway" : "neighbour"},
            {"cell_to_rank", c.cell_to_rank},
@@ -114,6 +119,7 @@ Case case_of(const json& j) {
     return {.kind = j.at("kind"),
             .selection = selection_of(j.at("selection")),
             .scheme = scheme_of(j.at("scheme")),
+            .closure = closure_of(j.value("closure", "longest-edge")),
             .levels = j.at("levels"),
             .synchronisation =
                 j.at("sync") == "gateway" ? Synchronisation::gateway : Synchronisation::neighbour,

@@ -138,7 +138,11 @@ std::size_t pieces(const Mesh& mesh, std::size_t shared_vertices) {
 
 bool is_refused(const Case& c) {
     try {
-        (void)reference::refine(c.mesh, c.selection, c.scheme, c.levels);
+        if (c.closure == Closure::regular) {
+            (void)reference::refine_regularly(c.mesh, c.selection, c.levels);
+        } else {
+            (void)reference::refine(c.mesh, c.selection, c.scheme, c.levels);
+        }
         return false;
     } catch (const InputError&) {
         return true;
@@ -188,14 +192,15 @@ Case draw_case(Draw& draw, int size, int ranks, bool exact) {
     c.synchronisation = draw.chance(0.5) ? Synchronisation::neighbour : Synchronisation::gateway;
     c.cell_to_rank = some_partition(c.mesh, ranks, draw);
     c.seed = draw.any();
-    return c;
+    return draw.chance(0.3) ? regular(std::move(c)) : c;
 }
 
 const std::vector<std::string>& all_tags() {
     static const std::vector<std::string> tags{
         "ties",     "slivers",      "in pieces",   "joined at edges or vertices only",
         "far off",  "tiny or huge", "regions",     "facets",
-        "one cell", "empty ranks",  "many levels", "refused for rounding"};
+        "one cell", "empty ranks",  "many levels", "refused for rounding",
+        "regular"};
     return tags;
 }
 
@@ -216,7 +221,8 @@ std::vector<std::string> tags_of(const Case& c, int ranks) {
                                mesh.cells.size() == 1,
                                used.size() < static_cast<std::size_t>(ranks),
                                c.levels > 2,
-                               is_refused(c)};
+                               is_refused(c),
+                               c.closure == Closure::regular};
     std::vector<std::string> tags;
     for (std::size_t i = 0; i < is.size(); ++i) {
         if (is[i]) tags.push_back(all_tags()[i]);

@@ -69,9 +69,11 @@ std::string fault_of_equality(const Case& c) {
     if (test::bits(found.mesh) != test::bits(expected.mesh)) return "the engines' points differ";
     if (!(found.mesh == expected.mesh)) return "the engines' tags, markers or attributes differ";
     if (!(found.maps == expected.maps)) return "the engines' maps differ";
-    const verify::Verdict verdict = verify::verify_refinement(
-        c.mesh, found.mesh,
-        {.request = verify::Request{c.selection, c.scheme, c.levels}, .maps = &found.maps});
+    const verify::Verdict verdict =
+        verify::verify_refinement(c.mesh, found.mesh,
+                                  {.request = verify::Request{c.selection, c.scheme, c.levels},
+                                   .closure = c.closure,
+                                   .maps = &found.maps});
     if (verdict.valid() || may_meet_by_rounding(found.mesh, found.maps, verdict.violations))
         return {};
     return "the verifier finds: " + test::codes_of(verdict);

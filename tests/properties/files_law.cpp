@@ -52,6 +52,8 @@ std::string fault_of_files(const Case& drawn) {
     Draw draw(drawn.seed);
     const std::string extension = draw.chance(0.5) ? ".mesh" : ".ele";
     Case c = drawn;
+    // A file has no history, so each level would begin with its own regular cells.
+    if (c.closure == Closure::regular) c.levels = 1;
     mark_by_position(c.selection);
     if (extension == ".mesh") fit_medit(c.mesh);
 

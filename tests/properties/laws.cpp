@@ -26,6 +26,8 @@ const std::vector<Law>& history_laws() {
         {"saving_and_loading_change_nothing", fault_of_checkpoints},
         {"unmarked_cells_stay", fault_of_survivors},
         {"coarsening_goes_back_by_one_generation", fault_of_generations, true},
+        {"order_of_marks_does_not_matter", fault_of_order_of_marks, true},
+        {"coarsening_leaves_regular_families", fault_of_regular_families, true},
         {"refining_again_gives_the_same", fault_of_refining_again},
         {"volumes_stay", fault_of_volumes, true}};
     return all;

@@ -27,7 +27,8 @@ namespace octetra::properties {
 [[nodiscard]] std::string fault_of_closure(const Case& c);
 
 /// Refining level by level, through files of either format that all ranks write and the first one
-/// reads, yields the file of one run of the reference, byte by byte.
+/// reads, yields the file of one run of the reference, byte by byte. One level with
+/// Closure::regular, because files have no history.
 [[nodiscard]] std::string fault_of_files(const Case& c);
 
 /// The numbers of cells and vertices follow from the bisected edges, the Euler characteristic is
@@ -74,8 +75,16 @@ namespace octetra::properties {
 /// the final checkpoint, byte by byte.
 [[nodiscard]] std::string fault_of_checkpoints(const Case& c);
 
+/// With Closure::regular, marking cells one after the other yields the mesh and the checkpoint of
+/// marking them together, byte by byte. For `exact` cases.
+[[nodiscard]] std::string fault_of_order_of_marks(const Case& c);
+
+/// With Closure::regular, coarsening leaves regular cells and whole families of transition cells,
+/// according to the verifier. For `exact` cases.
+[[nodiscard]] std::string fault_of_regular_families(const Case& c);
+
 /// Coarsening what a refinement made yields the previous mesh, bit by bit; refining the same cells
-/// again yields the refined mesh, bit by bit.
+/// again yields the refined mesh, bit by bit. With Closure::longest_edge.
 [[nodiscard]] std::string fault_of_refining_again(const Case& c);
 
 struct Law {

@@ -191,6 +191,9 @@ Simplifications simplifications(const Case& c) {
     if (c.levels > 1) add(all, shared, [](Case& r) { --r.levels; });
     add_fewer_criteria(all, shared);
     if (c.scheme != Scheme::eight) add(all, shared, [](Case& r) { r.scheme = Scheme::eight; });
+    if (c.closure != Closure::longest_edge) {
+        add(all, shared, [](Case& r) { r.closure = Closure::longest_edge; });
+    }
     if (c.synchronisation != distributed::Synchronisation::neighbour) {
         add(all, shared,
             [](Case& r) { r.synchronisation = distributed::Synchronisation::neighbour; });

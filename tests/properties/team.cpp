@@ -1,12 +1,16 @@
 #include "properties/team.hpp"
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/select_cells.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/reference/refine.hpp>
 
+#include "adapt/marks.hpp"
+#include "adapt/mesh_state.hpp"
 #include "distributed/world.hpp"
 #include "level/tuning.hpp"
 #include "properties/case_json.hpp"
+#include "select/select_cells.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace octetra::properties {
@@ -47,6 +51,29 @@ distributed::Tuning tuning_of(std::uint64_t seed) {
     return {.incremental_below = turn == 3 ? always : 0, .local_below = turn == 2 ? always : 0};
 }
 
+/// Collective. Refines with the closure of the case; the mesh is lost if this is refused.
+distributed::DistributedMesh refined(distributed::DistributedMesh part, const Case& c) {
+    const distributed::Tuning tuning = tuning_of(c.seed);
+    if (c.closure == Closure::longest_edge) {
+        distributed::refine(part, c.selection, {c.scheme, c.levels, c.synchronisation}, tuning);
+        return part;
+    }
+    const auto state = distributed::AdaptiveMesh::State::make(std::move(part));
+    const auto mark = [&] {
+        if (!is_compound(c.selection)) {
+            return distributed::mark_cells(state->mesh, c.selection, false);
+        }
+        return distributed::marked_by_bytes(state->mesh,
+                                            distributed::select_cells(state->mesh, c.selection));
+    };
+    const distributed::StepOptions options{.closure = Closure::regular,
+                                           .synchronisation = c.synchronisation};
+    for (int level = 1; level <= c.levels; ++level) {
+        if (!state->refine(mark, options, tuning).changed) break;
+    }
+    return std::move(state->mesh);
+}
+
 /// Collective. If only some ranks refuse, the outcome on all ranks reports this disagreement.
 Outcome carry_out(const Request& request) {
     const Communicator& world = test::world();
@@ -54,9 +81,7 @@ Outcome carry_out(const Request& request) {
     Outcome outcome;
     try {
         distributed::DistributedMesh part =
-            distributed::distribute(world, c.mesh, folded(c.cell_to_rank));
-        distributed::refine(part, c.selection, {c.scheme, c.levels, c.synchronisation},
-                            tuning_of(c.seed));
+            refined(distributed::distribute(world, c.mesh, folded(c.cell_to_rank)), c);
         if (request.file.empty()) {
             auto [mesh, maps] = distributed::collect(std::move(part));
             outcome = {std::move(mesh), std::move(maps), {}};
@@ -128,7 +153,9 @@ Adapted adapted_by_all(const Case& c) {
 
 Outcome refined_by_reference(const Case& c) {
     try {
-        auto [mesh, maps] = reference::refine(c.mesh, c.selection, c.scheme, c.levels);
+        auto [mesh, maps] = c.closure == Closure::regular
+                                ? reference::refine_regularly(c.mesh, c.selection, c.levels)
+                                : reference::refine(c.mesh, c.selection, c.scheme, c.levels);
         return {std::move(mesh), std::move(maps), {}};
     } catch (const InputError& error) {
         return {.error = error.what()};

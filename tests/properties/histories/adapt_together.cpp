@@ -190,7 +190,8 @@ private:
     Adaptation refined_by(const Marks& marks, const StepOptions& options,
                           const Selection* selection, std::uint64_t turn) {
         if (selection != nullptr) return mesh_->refine(*selection, options);
-        if (turn % 5 == 0 && options.scheme == Scheme::eight) {
+        if (turn % 5 == 0 && options.closure == Closure::longest_edge &&
+            options.scheme == Scheme::eight) {
             return mesh_->refine_edges(edges_of(*mesh_, marks), options);
         }
         if (turn % 3 == 1) return mesh_->refine(marks, options);
@@ -199,6 +200,7 @@ private:
 
     bool refine(Marks marks, Scheme scheme, const Selection* selection, std::uint64_t turn) {
         const StepOptions options{.scheme = scheme,
+                                  .closure = case_->closure,
                                   .synchronisation = case_->synchronisation,
                                   .max_cells = max_history_cells};
         Adaptation step;
@@ -218,7 +220,7 @@ private:
         step.cells.for_each_new([&](std::size_t number, std::size_t, unsigned halvings) {
             if (halvings > 0) last.made[number] = 1;
         });
-        take(refined(ancestries_, step), after_step(std::move(values_), step));
+        take(refined(ancestries_, step, case_->closure), after_step(std::move(values_), step));
         last_ = std::move(last);
         return step.changed;
     }

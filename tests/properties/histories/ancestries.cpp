@@ -20,6 +20,13 @@ void note(std::string* fault, const char* words) {
     if (fault->empty()) *fault = words;
 }
 
+/// The halvings of the regular cells around a cell with this number of halvings.
+std::vector<int> of_generations(int total) {
+    std::vector<int> halvings;
+    for (int each = 0; each < total; each += 3) halvings.push_back(each);
+    return halvings;
+}
+
 /// The past of the cell that results when merging undoes the last `halvings` halvings.
 Ancestry undo_halvings(const Ancestry& past, int halvings, std::string* fault) {
     if (halvings == 0) return past;
@@ -55,14 +62,16 @@ Ancestries initial_ancestries(const AdaptiveMesh& mesh, const std::vector<CellVe
     return ancestries;
 }
 
-Ancestries refined(const Ancestries& ancestries, const Adaptation& step) {
+Ancestries refined(const Ancestries& ancestries, const Adaptation& step, Closure closure) {
     Ancestries after = ancestries;
     after.resize(step.cells.count());
     step.cells.for_each_new([&](std::size_t number, std::size_t before, unsigned halvings) {
         after[number] = ancestries[before];
         if (halvings == 0) return;
-        after[number].halvings.push_back(ancestries[before].halvings.back() +
-                                         static_cast<int>(halvings));
+        std::vector<int>& of_cell = after[number].halvings;
+        const int total = of_cell.back() + static_cast<int>(halvings);
+        if (closure == Closure::regular) of_cell = of_generations(total);
+        of_cell.push_back(total);
     });
     return after;
 }

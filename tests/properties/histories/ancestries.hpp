@@ -15,7 +15,7 @@ namespace octetra::properties {
 struct Ancestry {
     std::uint64_t root = 0;  ///< cell of the input
     /// For each ancestor of the cell, and last for the cell, the number of halvings from the root:
-    /// ascending, from 0.
+    /// ascending, from 0. With Closure::regular, the ancestors are the regular cells.
     std::vector<int> halvings{0};
 
     friend bool operator==(const Ancestry&, const Ancestry&) = default;
@@ -29,7 +29,8 @@ using Ancestries = std::vector<Ancestry>;
 [[nodiscard]] Ancestries initial_ancestries(const distributed::AdaptiveMesh& mesh,
                                             const std::vector<CellVertices>& input);
 
-[[nodiscard]] Ancestries refined(const Ancestries& ancestries, const distributed::Adaptation& step);
+[[nodiscard]] Ancestries refined(const Ancestries& ancestries, const distributed::Adaptation& step,
+                                 Closure closure);
 
 /// Sets `fault`, if it is empty, where the step contradicts `may_coarsen`: an unmarked cell is
 /// gone, a cell was coarsened by more than one generation, or cells are not descendants of the cell

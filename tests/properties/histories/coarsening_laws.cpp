@@ -72,7 +72,7 @@ std::string fault_of_generations(const Case& drawn) {
     for (const std::size_t k : both.coarsenings) {
         const auto before = reference::replay(both.reference.before[k]);
         const auto after = reference::replay(
-            reference::coarsened(both.reference.before[k], both.reference.marked[k]));
+            reference::coarsened(both.reference.before[k], both.reference.marked[k], c.closure));
         const reference::Refinement coarser{both.adapted.stages[k].mesh, after.back().maps};
         if (!test::refines(before.back(), coarser, exact_grid_scale)) {
             return "the coarser mesh is not refined by the one before";

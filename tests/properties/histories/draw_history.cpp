@@ -95,6 +95,7 @@ Case draw_start(Draw& draw, int size, int ranks, bool exact) {
     Case c = draw_case(draw, size, ranks, exact);
     c.selection = {};
     c.scheme = Scheme::eight;
+    c.closure = Closure::longest_edge;
     c.levels = 1;
     const std::size_t cells = c.mesh.cells.size();
     if (draw.chance(0.4) && 8 * cells < max_history_cells) {
@@ -116,11 +117,11 @@ Case draw_history(Draw& draw, int size, int ranks, bool exact) {
         const bool has_refined = c.steps.back().action == Action::refine;
         const bool has_taken_back = c.steps.back().action == Action::take_back;
         const std::size_t kind = draw.below(24);
-        if (has_taken_back && kind < 12) {
+        if (has_taken_back && kind < 16) {
             c.steps.push_back({.action = Action::again});
-        } else if (has_refined && kind < 2) {
+        } else if (has_refined && kind < 4) {
             c.steps.push_back({.action = Action::take_back});
-        } else if (kind < 9) {
+        } else if (kind < 10) {
             c.steps.push_back(refinement(c.mesh, cells, draw));
         } else if (kind < 17) {
             c.steps.push_back(
@@ -134,7 +135,7 @@ Case draw_history(Draw& draw, int size, int ranks, bool exact) {
                                .format = formats()[draw.below(formats().size())].name});
         }
     }
-    return c;
+    return draw.chance(0.3) ? regular(std::move(c)) : c;
 }
 
 const std::vector<std::string>& all_tags_of_histories() {
@@ -152,7 +153,8 @@ const std::vector<std::string>& all_tags_of_histories() {
                                                "moved",
                                                "changed after moving",
                                                "written and read",
-                                               "changed after reading"};
+                                               "changed after reading",
+                                               "coarser and regular"};
     return tags;
 }
 
@@ -168,7 +170,7 @@ std::vector<std::string> tags_of_history(const Case& c, int ranks) {
         const bool refines = action == Action::refine || action == Action::again;
         const auto marked = static_cast<std::size_t>(
             std::ranges::count_if(history.marked[k], [](char mark) { return mark != 0; }));
-        const bool by_size = refusal.starts_with("level");
+        const bool by_size = refusal.starts_with("level") || refusal.starts_with("the step");
         is[2] = is[2] || (is[0] && refines && changed);
         is[0] = is[0] || (coarsens && changed);
         is[1] = is[1] || (action == Action::coarsen && changed && marked < cells);
@@ -184,6 +186,7 @@ std::vector<std::string> tags_of_history(const Case& c, int ranks) {
         is[11] = is[11] || action == Action::scatter || action == Action::rebalance;
         is[14] = is[14] || (is[13] && changed);
         is[13] = is[13] || action == Action::rewrite;
+        is[15] = is[0] && c.closure == Closure::regular;
         cells = mesh.cells.size();
         points = mesh.points.size();
     }

@@ -165,6 +165,7 @@ std::string fault_of_checkpoints(const Case& c) {
 
 std::string fault_of_refining_again(const Case& c) {
     Case back_and_forth = c;
+    back_and_forth.closure = Closure::longest_edge;
     Draw draw(c.seed);
     Step step{.action = Action::refine};
     const auto last =

@@ -40,10 +40,19 @@ void check_size(const Refinement& present, const CellMarks& marked, Scheme schem
     }
 }
 
+/// Refines with Closure::regular. Throws InputError as check_size() does.
+History regularly_refined(const History& history, const CellMarks& marked) {
+    History next = reference::refined_regularly(history, marked);
+    if (reference::replay(next).back().mesh.cells.size() > max_history_cells) {
+        throw InputError("the step would make more than");
+    }
+    return next;
+}
+
 class AdaptedMesh {
 public:
-    explicit AdaptedMesh(const Mesh& input)
-        : history_{input, {}}, present_(reference::replay(history_).back()) {}
+    explicit AdaptedMesh(const Case& c)
+        : closure_(c.closure), history_{c.mesh, {}}, present_(reference::replay(history_).back()) {}
 
     void make(const Step& step, ReferenceHistory& all) {
         all.before.push_back(history_);
@@ -93,7 +102,7 @@ private:
             case Action::rebalance:
             case Action::scatter: return history_;
             case Action::rewrite: return {rewritten(present_.mesh, format_named(step.format)), {}};
-            case Action::coarsen: return reference::coarsened(history_, marked);
+            case Action::coarsen: return reference::coarsened(history_, marked, closure_);
             case Action::take_back:
                 taken_back_ = last;
                 return reference::coarsened(history_, marked);
@@ -102,11 +111,13 @@ private:
         const Scheme scheme = step.action == Action::refine ? step.scheme
                               : taken_back                  ? taken_back->scheme
                                                             : Scheme::eight;
+        if (closure_ == Closure::regular) return regularly_refined(history_, marked);
         check_size(present_, marked, scheme, history_.steps.size() + 1);
         last_ = {marked, scheme, present_.mesh.points.size()};
         return reference::refined(history_, marked, scheme);
     }
 
+    Closure closure_;
     History history_;
     Refinement present_;
     std::optional<MarkedBefore> last_;        ///< if the previous step refined
@@ -117,7 +128,7 @@ private:
 
 ReferenceHistory adapted_by_reference(const Case& c) {
     ReferenceHistory all;
-    AdaptedMesh adapted(c.mesh);
+    AdaptedMesh adapted(c);
     for (const Step& step : c.steps) adapted.make(step, all);
     return all;
 }

@@ -13,12 +13,22 @@ import octetra
 import octetra.dolfinx as od
 
 
-def test_a_function_goes_along_with_every_step(composite):
+closures = pytest.mark.parametrize("closure", ["longest-edge", "regular"])
+
+
+def refine(mesh, radius, closure):
+    """A step with the regular closure completes the families at the border of the previous sphere, and bisects some
+    of their cells again."""
+    return mesh.refine(near(mesh, radius), closure=closure)
+
+
+@closures
+def test_a_function_goes_along_with_every_step(composite, closure):
     before = od.to_mesh(composite)
     u = support.function_on(support.lagrange(before.mesh), support.linear)
     v = support.function_on(support.lagrange(before.mesh), support.wave)
-    for radius in (0.8, 0.5):
-        step = composite.refine(near(composite, radius))
+    for radius in (0.5, 0.6, 0.4):
+        step = refine(composite, radius, closure)
         after = od.to_mesh(composite)
         old, u = u, od.carry(u, step, before, after)
         expected = support.function_on(support.lagrange(after.mesh), support.linear)
@@ -44,12 +54,13 @@ def quadratic(x):
     return np.stack([x[0] * x[1] - x[2] ** 2 + 1, x[1] * x[2] - 3 * x[0]])
 
 
-def test_a_quadratic_function_is_the_same_on_the_refined_mesh(composite):
+@closures
+def test_a_quadratic_function_is_the_same_on_the_refined_mesh(composite, closure):
     before = od.to_mesh(composite)
     u = support.function_on(support.lagrange(before.mesh, 2, 2), quadratic)
     v = support.function_on(support.lagrange(before.mesh, 2), support.wave)
-    for radius, ghosts in ((0.8, "face"), (0.5, None)):
-        step = composite.refine(near(composite, radius))
+    for radius, ghosts in ((0.5, "face"), (0.6, None), (0.4, "face")):
+        step = refine(composite, radius, closure)
         after = od.to_mesh(composite, ghosts=ghosts)
         u = od.carry(u, step, before, after)
         expected = support.function_on(support.lagrange(after.mesh, 2, 2), quadratic)
@@ -59,7 +70,7 @@ def test_a_quadratic_function_is_the_same_on_the_refined_mesh(composite):
         sums.append(support.integral(v * v * ufl.dx))
         assert sums[1] == pytest.approx(sums[0], rel=1e-12)
         before = after
-    other = od.carry(v, composite.refine(), before, od.to_mesh(composite), None)
+    other = od.carry(v, composite.refine(closure=closure), before, od.to_mesh(composite), None)
     assert other.function_space.mesh is not before.mesh
     step = composite.coarsen(np.ones(len(composite.cells), bool))
     with pytest.raises(octetra.InputError, match="coarsening"):
@@ -85,9 +96,11 @@ def test_a_function_moves_with_cells_and_may_be_a_vector(composite):
     assert np.allclose(moved.x.array, expected.x.array, rtol=0, atol=1e-14)
 
 
-def test_children_lie_in_their_parents_and_their_facets_in_those_of_parents(composite):
+@closures
+def test_children_lie_in_their_parents_and_their_facets_in_those_of_parents(composite, closure):
+    refine(composite, 0.5, closure)
     before = od.to_mesh(composite)
-    step = composite.refine(near(composite, 0.6))
+    step = refine(composite, 0.6, closure)
     after = od.to_mesh(composite)
     cells, facets = od.parents(step, before, after)
     parent, child = support.corners(before.mesh)[cells], support.corners(after.mesh)[:support.owned(after.mesh)]
@@ -106,9 +119,11 @@ def test_children_lie_in_their_parents_and_their_facets_in_those_of_parents(comp
         assert np.array_equal(facets[:, facet], expected)
 
 
-def test_tags_that_dolfinx_carries_by_our_parents_are_those_that_we_hand_over(composite):
+@closures
+def test_tags_that_dolfinx_carries_by_our_parents_are_those_that_we_hand_over(composite, closure):
+    refine(composite, 0.5, closure)
     before = od.to_mesh(composite, ghosts=None)
-    step = composite.refine(near(composite, 0.6))
+    step = refine(composite, 0.6, closure)
     after = od.to_mesh(composite, ghosts=None)
     cells, facets = od.parents(step, before, after)
     tags = support.transferred(before.cell_tags, after.mesh, cells)

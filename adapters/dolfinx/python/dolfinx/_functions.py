@@ -63,8 +63,8 @@ def parents(step: _octetra.Adaptation, before: Handover,
     """Returns, for a refinement step, the parent in before.mesh of each cell of after.mesh owned by this rank,
     (cells,), and for each facet of the cell the facet of the parent that contains it, 0 to 3, or -1, (cells, 4).
     Facet i is opposite corner i. DOLFINx's refinement returns the same information."""
-    cells, ends = _ends_in_parents(step, before, after)
-    is_involved = ends[0] | ends[1]
+    cells, corners = _corners_in_parents(step, before, after)
+    is_involved = corners > 0
     facets = np.full((len(cells), 4), -1, np.int8)
     for facet in range(4):
         misses = ~is_involved[:, [k for k in range(4) if k != facet]].any(axis=1)
@@ -72,30 +72,53 @@ def parents(step: _octetra.Adaptation, before: Handover,
     return cells, facets
 
 
-def _ends_in_parents(step: _octetra.Adaptation, before: Handover,
-                     after: Handover) -> Tuple[NDArray[np.int32], NDArray[np.bool_]]:
-    """Parents of cells, and booleans (2, cells, 4, 4). Every corner of a child halves an edge of the parent, or is
-    a corner of it, which is both ends: (end, cell, corner of the child, corner of the parent that this end is)."""
+def _corners_in_parents(step: _octetra.Adaptation, before: Handover,
+                        after: Handover) -> Tuple[NDArray[np.int32], NDArray[Any]]:
+    """Parents of cells, and the barycentric coordinates of each corner of a child in its parent: (cells, corner of
+    the child, corner of the parent)."""
     if step.is_coarser:
         raise _octetra.InputError("parents: the step must be a refinement, not a coarsening")
-    if len(step.vertices_before) > 0:
-        raise _octetra.InputError("parents: not available for a step with the regular closure, which can bisect a cell "
-                                  "twice")
     if (step.vertex_count_before, len(step.cells.parents)) != (len(_nodes(before)[0]), len(after.cells)):
         raise _octetra.InputError("parents: the step did not transform the first mesh into the second")
     dolfinx_cell = np.empty(len(before.cells), np.int32)
     dolfinx_cell[before.cells] = np.arange(len(before.cells))
     cells = dolfinx_cell[step.cells.parents][after.cells]
-    old = np.arange(step.vertex_count_before, dtype=np.int32)
-    ends = np.concatenate([np.stack([old, old], axis=1), step.new_vertex_ends])
-    child = ends[_corners(after)]
-    parent = _corners(before)[cells]
-    return cells, np.stack([child[:, :, end, None] == parent[:, None, :] for end in range(2)])
+    now, ends = _vertices_after(step)
+    return cells, _coordinates(_corners(after), ends, now[_corners(before)[cells]])
+
+
+def _vertices_after(step: _octetra.Adaptation) -> Tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Returns the number after the step of each vertex before it, and the ends of the edge that each vertex after it
+    halves, or twice the vertex itself."""
+    old = step.vertices_before
+    if len(old) == 0:
+        old = np.arange(step.vertex_count_before + len(step.new_vertex_ends), dtype=np.int32)
+        old[step.vertex_count_before:] = NONE
+    is_new = old == NONE
+    now = np.empty(step.vertex_count_before, np.int32)
+    now[old[~is_new]] = np.flatnonzero(~is_new)
+    ends = np.repeat(np.arange(len(old), dtype=np.int32)[:, None], 2, axis=1)
+    ends[is_new] = step.new_vertex_ends
+    return now, ends
+
+
+def _coordinates(vertices: NDArray[Any], ends: NDArray[Any], parent: NDArray[Any]) -> NDArray[Any]:
+    """Barycentric coordinates of vertices (cells, k) in the parent with corners (cells, 4): (cells, k, 4). A vertex
+    that is not a corner is the mean of its ends, which have coordinates of their own if the cell was bisected again."""
+    made = (vertices[:, :, None] == parent[:, None, :]).astype(float)
+    is_made = ~made.any(axis=2)
+    if not is_made.any():
+        return made
+    of_made = ends[vertices[is_made]]
+    if (of_made[:, 0] == of_made[:, 1]).any():  # an old vertex that is no corner of the parent
+        raise _octetra.InputError("parents: the step did not transform the first mesh into the second")
+    made[is_made] = _coordinates(of_made, ends, parent[np.nonzero(is_made)[0]]).mean(axis=1)
+    return made
 
 
 def _carry_quadratic(u: Any, step: _octetra.Adaptation, before: Handover, after: Handover, space: Any) -> Any:
-    """Collective. The nodes of a child have barycentric coordinates 0, 1/4, 1/2, 3/4 and 1 in its parent: the values
-    there are exact up to rounding."""
+    """Collective. The barycentric coordinates of the nodes of a child in its parent are multiples of a power of two:
+    the values there are exact up to rounding."""
     if step.is_coarser:
         raise _octetra.InputError("a function of degree 2, which coarsening does not carry")
     if space is None:
@@ -104,15 +127,15 @@ def _carry_quadratic(u: Any, step: _octetra.Adaptation, before: Handover, after:
     if _versions.lagrange_degree(space) != 2:
         fault = "a function of degree 2 for a space of another degree"
     check(after.mesh.comm, fault)
-    parent, ends = _ends_in_parents(step, before, after)
+    parent, corners = _corners_in_parents(step, before, after)
     u.x.scatter_forward()
     size = space.dofmap.bs
     old = u.x.array.reshape(-1, size)[_versions.dofs_of_cells(u.function_space)[parent]]
     made = dolfinx.fem.Function(space, dtype=u.x.array.dtype.type)
     of_dofs, dofs = made.x.array.reshape(-1, size), _versions.dofs_of_cells(space)[:len(parent)]
-    is_same = (ends == np.eye(4, dtype=bool)).all(axis=(0, 2, 3))
+    is_same = (corners == np.eye(4)).all(axis=(1, 2))
     of_dofs[dofs[is_same]] = old[is_same]
-    corners, old, dofs = ends[:, ~is_same].mean(axis=0), old[~is_same], dofs[~is_same]
+    corners, old, dofs = corners[~is_same], old[~is_same], dofs[~is_same]
     edges = np.array(basix.topology(basix.CellType.tetrahedron)[1])
     nodes = np.concatenate([corners, corners[:, edges].mean(axis=2)], axis=1)
     for k in range(nodes.shape[1]):

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/estimator_marks.hpp>
 #include <octetra/distributed/exchange.hpp>
+#include <octetra/distributed/fit.hpp>
 #include <octetra/distributed/levels.hpp>
 #include <octetra/distributed/refine.hpp>
 
@@ -207,6 +209,23 @@ TEST(FailingAllocations, OfExpressionsLeaveTheMeshAsItWasOnAllProcesses) {
     const std::uint64_t refused = fail_each_allocation_of_step(
         1, [&](AdaptiveMesh& mesh) { return [&] { (void)mesh.refine(selection); }; });
     EXPECT_GT(refused, 200U);
+}
+
+TEST(FailingAllocations, OfFitsAndPredictionsLeaveTheMeshAsItWasOnAllProcesses) {
+    for (const Closure closure : {Closure::longest_edge, Closure::regular}) {
+        const auto prepare = [&](AdaptiveMesh& mesh) {
+            const FitOptions options{.step = {.closure = closure}};
+            const auto fit = std::make_shared<Fit>(mesh, options);
+            const std::vector<double> sizes = mesh.cell_values(Expression("0.2 + x"));
+            const std::vector<std::uint8_t> all(sizes.size(), 1);
+            return [&mesh, fit, sizes, all, step = options.step] {
+                (void)mesh.marks_within(all, 2000, step);
+                (void)fit->misfit_cells(sizes);
+                (void)fit->next(sizes);
+            };
+        };
+        EXPECT_GT(fail_each_allocation_of_step(1, prepare, closure), 200U);
+    }
 }
 
 TEST(FailingAllocations, OfLevelsAreThrownOnAllProcesses) {

@@ -225,11 +225,11 @@ TEST_P(MarkedCells, AreRefusedOnAllProcessesAlike) {
     const bool is_first = test::world().is_first();
     EXPECT_THAT(test::thrown_by<InputError>(
                     [&] { (void)mesh.marked_cells(where(is_first ? "x < 1" : "x < 2")); }),
-                testing::HasSubstr("where"));
+                testing::HasSubstr("expression"));
     EXPECT_THAT(test::thrown_by<InputError>([&] {
                     (void)mesh.refine(is_first ? where("distance(7) < 1") : Selection{.all = true});
                 }),
-                testing::HasSubstr("where"));
+                testing::HasSubstr("expression"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Partitions, MarkedCells,

@@ -186,6 +186,7 @@ IndexMap<CellIndex> AdaptiveMesh::cell_index_map() const {
         [&] { return make_index_map(processes(), Sharing<CellIndex>(), cells().size()); });
 }
 
+std::uint32_t AdaptiveMesh::index_base() const { return state_->mesh.index_base; }
 std::uint64_t AdaptiveMesh::vertex_count() const { return state_->numbers.vertex_count; }
 std::span<const GlobalVertex> AdaptiveMesh::vertex_numbers() const {
     return state_->numbers.of_vertex;

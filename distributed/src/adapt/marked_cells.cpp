@@ -16,15 +16,18 @@
 namespace octetra::distributed {
 namespace {
 
+void check_history(const AdaptiveMesh::State& state, const Selection& selection) {
+    if (state.forgotten.empty() || !uses_history(selection)) return;
+    throw InputError(
+        "generation needs the history of the mesh, which was forgotten when cells moved: recall "
+        "it, or do not allow this");
+}
+
 /// Collective, within a transaction.
 std::vector<std::uint8_t> select(const AdaptiveMesh::State& state, const Selection& selection,
                                  std::span<const Field> fields,
                                  std::span<const Background> backgrounds) {
-    if (!state.forgotten.empty() && uses_history(selection)) {
-        throw InputError(
-            "generation needs the history of the mesh, which was forgotten when cells moved: "
-            "recall it, or do not allow this");
-    }
+    check_history(state, selection);
     return select_cells(state.mesh, selection,
                         {fields, &state.sharing, &state.numbers, backgrounds});
 }
@@ -58,6 +61,21 @@ std::vector<std::uint8_t> AdaptiveMesh::marked_cells(
         check_same(processes(), fields);
         check_same_names(processes(), backgrounds);
         return select(*state_, selection, fields, backgrounds);
+    });
+}
+
+std::vector<double> AdaptiveMesh::cell_values(const Expression& expression,
+                                              std::span<const Field> fields,
+                                              std::span<const Background> backgrounds) const {
+    const StandardArithmetic standard;
+    const Phase phase(processes(), "select");
+    return processes().transaction([&] {
+        check_sizes(state_->mesh, fields);
+        check_same(processes(), fields);
+        check_same_names(processes(), backgrounds);
+        check_history(*state_, {.where = {expression}});
+        return evaluate_cells(state_->mesh, expression,
+                              {fields, &state_->sharing, &state_->numbers, backgrounds});
     });
 }
 

@@ -126,7 +126,7 @@ void check_same_expressions(const Communicator& processes, const Selection& sele
     for (const Expression* expression : expressions_of(selection)) {
         texts += (texts.empty() ? "" : "; ") + expression->text();
     }
-    processes.check_same("where", texts);
+    processes.check_same("expression", texts);
 }
 
 }  // namespace
@@ -140,6 +140,17 @@ std::vector<std::uint8_t> select_cells(const DistributedMesh& mesh, const Select
                                                    Terms(mesh, cells, fields).of(selection));
     check_defined(mesh, selection, selected.undefined);
     return std::move(selected.marks);
+}
+
+std::vector<double> evaluate_cells(const DistributedMesh& mesh, const Expression& expression,
+                                   const FieldsToUse& fields) {
+    const Selection alone{.where = {expression}};
+    check_same_expressions(mesh.processes, alone);
+    const OwnCells cells(mesh);
+    EvaluatedCells evaluated =
+        evaluate(alone.where[0], mesh.cells.size(), cells, Terms(mesh, cells, fields).of(alone));
+    check_defined(mesh, alone, evaluated.undefined);
+    return std::move(evaluated.values);
 }
 
 }  // namespace octetra::distributed

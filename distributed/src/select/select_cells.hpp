@@ -30,4 +30,10 @@ struct FieldsToUse {
                                                      const Selection& selection,
                                                      const FieldsToUse& fields = {});
 
+/// Collective, within a transaction. Returns the value of an expression, which must be the same on
+/// all processes, in each cell of this process. See AdaptiveMesh::cell_values() for the errors.
+[[nodiscard]] std::vector<double> evaluate_cells(const DistributedMesh& mesh,
+                                                 const Expression& expression,
+                                                 const FieldsToUse& fields = {});
+
 }  // namespace octetra::distributed

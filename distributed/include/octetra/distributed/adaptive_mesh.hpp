@@ -187,6 +187,23 @@ public:
     [[nodiscard]] std::vector<std::uint8_t> marked_cells(
         const Selection& selection, std::span<const Field> fields = {},
         std::span<const Background> backgrounds = {}) const;
+    /// Collective. Returns the value of an expression in each cell of this process, under the same
+    /// conditions as marked_cells().
+    [[nodiscard]] std::vector<double> cell_values(
+        const Expression& expression, std::span<const Field> fields = {},
+        std::span<const Background> backgrounds = {}) const;
+
+    /// Collective. Returns the number of cells that the whole mesh would have after refine() with
+    /// these arguments, except for the limit max_cells, and leaves the mesh unchanged.
+    [[nodiscard]] std::uint64_t cells_after(std::span<const std::uint8_t> marks,
+                                            const StepOptions& options = {});
+    /// Collective. Returns those of the marked cells with the longest edges, as many as refine()
+    /// can refine without making more than `cells` cells of the whole mesh; of cells with edges of
+    /// the same length, those with the lowest numbers in files. The same cells on any number of
+    /// processes. Takes the time of about log2(number of marked cells) closures.
+    [[nodiscard]] std::vector<std::uint8_t> marks_within(std::span<const std::uint8_t> marks,
+                                                         std::uint64_t cells,
+                                                         const StepOptions& options = {});
 
     /// Collective. Returns a copy of this mesh with a field of one component, to be used as a
     /// background mesh by marked_cells() of any mesh of the same group of processes. Values of
@@ -262,6 +279,8 @@ public:
     /// other processes.
     [[nodiscard]] DetachedArrays detach_arrays(const ArraysInUse& in_use);
 
+    /// The number of the first vertex and cell in files: 0 or 1. Errors use the numbers of files.
+    [[nodiscard]] std::uint32_t index_base() const;
     /// The number of vertices of the whole mesh.
     [[nodiscard]] std::uint64_t vertex_count() const;
     /// The global number of each vertex of this process: in the canonical order, as in files.

@@ -15,6 +15,7 @@ from ._octetra import (
     Adaptation as Adaptation,
     Edges as Edges,
     Error as Error,
+    Fit as Fit,
     Faces as Faces,
     Ghosts as Ghosts,
     IndexMap as IndexMap,

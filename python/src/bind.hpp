@@ -13,6 +13,7 @@ using MeshClass = py::class_<Mesh, MeshPointer>;
 
 void bind_arrays(MeshClass& mesh);
 void bind_certificate(py::module_& module, MeshClass& mesh);
+void bind_fit(py::module_& module, MeshClass& mesh);
 void bind_files(py::module_& module, MeshClass& mesh);
 void bind_from_arrays(py::module_& module);
 void bind_steps(py::module_& module, MeshClass& mesh);

@@ -13,18 +13,9 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "migration.hpp"
+#include "step_options.hpp"
 
 namespace octetra::python {
-namespace {
-
-using Adaptation = std::shared_ptr<od::Adaptation>;
-
-Marks marked(const Mesh& mesh, const py::object& marks, const py::object& cells) {
-    if (cells.is_none()) return marks_of(marks, mesh.cell_count());
-    if (!marks.is_none())
-        throw InputError("marks and cells are alternatives: one of them must be None");
-    return marks_of_list(cells, mesh.cell_count());
-}
 
 od::StepOptions step_options(const py::object& given, const py::object& closure,
                              const py::object& max_cells) {
@@ -42,6 +33,17 @@ od::StepOptions step_options(const py::object& given, const py::object& closure,
         options.max_cells = integer_from<std::uint64_t>("max_cells", max_cells);
     }
     return options;
+}
+
+namespace {
+
+using Adaptation = std::shared_ptr<od::Adaptation>;
+
+Marks marked(const Mesh& mesh, const py::object& marks, const py::object& cells) {
+    if (cells.is_none()) return marks_of(marks, mesh.cell_count());
+    if (!marks.is_none())
+        throw InputError("marks and cells are alternatives: one of them must be None");
+    return marks_of_list(cells, mesh.cell_count());
 }
 
 Adaptation shared(od::Adaptation step) { return std::make_shared<od::Adaptation>(std::move(step)); }

@@ -109,6 +109,7 @@ PYBIND11_MODULE(_octetra, module) {
     bind_migration(module);
     bind_arrays(mesh);
     bind_files(module, mesh);
+    bind_fit(module, mesh);
     bind_from_arrays(module);
     bind_steps(module, mesh);
     bind_marks(module);

@@ -125,6 +125,15 @@ CASES = {
     "gradation must be a number, not 'a'": lambda m: Call(m, "x")(octetra.mark.size, m, "x", "a"),
     "column 2: a number or variable is missing at the end\n  -\n   ^": lambda m: Call(m, "x")(
         octetra.mark.size, m, "-"),
+    "levels must be an integer from -2147483648 to 2147483647, not 'a'": lambda m: Call(m)(
+        octetra.Fit, m, levels="a"),
+    "next() missing 1 required positional argument: 'sizes'": lambda m: Call(np.ones(len(m.cells)))(
+        octetra.Fit(m).next),
+    "sizes must be an array of numbers, not 'a'": lambda m: Call(np.ones(len(m.cells)))(
+        octetra.Fit(m).misfit_cells, "a"),
+    "cells_after() missing 1 required positional argument: 'marks'": lambda m: Call(None)(m.cells_after),
+    "count must be an integer from 0 to 18446744073709551615, not -1": lambda m: Call(None, 9)(
+        m.marks_within, None, -1),
     "coarse must be a string or an os.PathLike, not 3": lambda m: Call()(m.verify, 3),
     "fast must be True or False, not 'x'": lambda m: Call()(m.verify, fast="x"),
     "min_dihedral must be a number, not 'x'": lambda m: Call()(m.verify, min_dihedral="x"),
@@ -246,5 +255,6 @@ def test_the_page_says_which_functions_are_collective():
                 is_collective = member.__doc__.startswith("Collective.")
                 kinds["collective" if is_collective else "local"].add(f"{scope}.{name}")
     assert octetra.MeshSeries.__init__.__doc__.startswith("Collective.")
-    kinds["collective"].add("octetra.MeshSeries")
+    assert "Collective." in octetra.Fit.__init__.__doc__
+    kinds["collective"] |= {"octetra.MeshSeries", "octetra.Fit"}
     assert {kind: documented(kind) for kind in kinds} == kinds

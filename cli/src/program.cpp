@@ -90,6 +90,7 @@ void declare_all(CLI::App& program, const distributed::Communicator& world) {
     add_refine(program, world);
     add_adapt(program, world);
     add_coarsen(program, world);
+    add_fit(program, world);
     add_info(program, world);
     add_generate(program, world);
     add_convert(program, world);

@@ -175,6 +175,11 @@ public:
         return {levels_done("coarsened", done),
                 idle_levels(done, levels, idle_coarsening_reason(adapted_->is_changed(), is_any))};
     }
+    StepDone operator()(const FitStep&) const {
+        throw InputError(
+            "--engine reference cannot fit: the default engine makes the same mesh as the steps "
+            "that docs/cli.md describes");
+    }
     StepDone operator()(const RebalanceStep&) const {
         return {"rebalanced, and no cell moved: most/mean cells 1.00", {}, false};
     }

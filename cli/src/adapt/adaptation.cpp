@@ -134,10 +134,7 @@ verify::Request request_of(RefineStep step, const MeshFacts& read,
     return {step.selection, step.scheme, step.typed.levels};
 }
 
-bool is_regular_step(const ScriptStep& step) {
-    const auto* const refine = std::get_if<RefineStep>(&step.step);
-    return refine != nullptr && refine->closure == Closure::regular;
-}
+bool is_regular_step(const ScriptStep& step) { return closure_of(step.step) == Closure::regular; }
 
 bool has_regular_step(const Script& script) {
     return std::ranges::any_of(script.steps, is_regular_step);
@@ -147,17 +144,18 @@ bool has_regular_step(const Script& script) {
 /// if the mesh was coarsened to the input.
 Closure common_closure(const Script& script) {
     const bool are_all = std::ranges::all_of(script.steps, [](const ScriptStep& step) {
-        return !std::holds_alternative<RefineStep>(step.step) || is_regular_step(step);
+        return !closure_of(step.step) || is_regular_step(step);
     });
     return are_all && has_regular_step(script) ? Closure::regular : Closure::longest_edge;
 }
 
-/// Returns whether an expression of a step uses the history of the mesh.
+/// Returns whether a step uses the history of the mesh.
 bool uses_history(const Script& script) {
     return std::ranges::any_of(script.steps, [](const ScriptStep& step) {
         const auto* const refine = std::get_if<RefineStep>(&step.step);
         const auto* const coarsen = std::get_if<CoarsenStep>(&step.step);
-        return (refine != nullptr && octetra::uses_history(refine->selection)) ||
+        return std::holds_alternative<FitStep>(step.step) ||
+               (refine != nullptr && octetra::uses_history(refine->selection)) ||
                (coarsen != nullptr && octetra::uses_history(coarsen->selection));
     });
 }
@@ -176,8 +174,13 @@ bool is_valid(const Run& run, const distributed::AdaptiveMesh& mesh, verify::Mes
     Judgement judgement{.closure = common_closure(script), .maps = maps ? &*maps : nullptr};
     if (options.claim == Claim::refines_mesh) {
         const auto& step = std::get<RefineStep>(script.steps.front().step);
-        note_unverified(run, step.selection);
-        if (can_verify(step.selection)) judgement.request = request_of(step, read, run.world);
+        const bool is_reduced = step.typed.target_cells.has_value();
+        if (is_reduced && run.world.is_first()) {
+            note("--verify checks a refinement of any cells: --target-cells omits marked cells");
+        }
+        if (!is_reduced) note_unverified(run, step.selection);
+        if (!is_reduced && can_verify(step.selection))
+            judgement.request = request_of(step, read, run.world);
     }
     return is_valid_refinement(run, std::move(coarse), slice_of(mesh), judgement);
 }

@@ -2,9 +2,24 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace octetra::cli {
+namespace {
+
+/// Collective. Returns the number of levels that a step is likely to have: with --target-cells,
+/// those of a refinement of all cells.
+int likely_levels(const distributed::CellsToWeigh& cells, const RefinementOptions& typed) {
+    if (!typed.target_cells) return typed.levels;
+    const std::uint64_t count = std::max<std::uint64_t>(cells.processes.sum(cells.count()), 1);
+    int levels = 1;
+    std::uint64_t made = count * 8;
+    for (; levels < typed.levels && made < *typed.target_cells; made *= 8) ++levels;
+    return levels;
+}
+
+}  // namespace
 
 std::vector<float> predicted_by_steps(const distributed::CellsToWeigh& cells,
                                       const Script& script) {
@@ -14,7 +29,7 @@ std::vector<float> predicted_by_steps(const distributed::CellsToWeigh& cells,
         const auto* refine = std::get_if<RefineStep>(&step.step);
         if (refine == nullptr) continue;
         std::vector<float> predicted = distributed::predicted_cells(
-            cells, refine->selection, refine->scheme, refine->typed.levels);
+            cells, refine->selection, refine->scheme, likely_levels(cells, refine->typed));
         if (product.empty()) {
             product = std::move(predicted);
         } else {

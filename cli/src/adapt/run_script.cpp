@@ -82,8 +82,16 @@ public:
         options.scheme = step.scheme;
         options.closure = step.closure;
         options.is_last = is_last_ && levels == 1;
-        const int done = refine(*mesh_, step, options, balance_, followers(levels));
-        return {levels_done("refined", done), idle_levels(done, levels, idle_refinement_reason)};
+        const bool has_target = step.typed.target_cells.has_value();
+        const RefinedLevels done =
+            refine(*mesh_, step, options, balance_, followers(has_target ? 0 : levels));
+        StepDone report{levels_done("refined", done.count), {}};
+        if (done.refined < done.marked) {
+            report.remarks.push_back(reached_target(done.refined, done.marked));
+        } else if (!has_target || done.count == 0) {
+            report.remarks = idle_levels(done.count, levels, idle_refinement_reason);
+        }
+        return report;
     }
 
     StepDone operator()(CoarsenStep step) {
@@ -95,6 +103,16 @@ public:
         return {
             levels_done("coarsened", done),
             idle_levels(done, levels, idle_coarsening_reason(is_refined_before_, is_any_marked))};
+    }
+
+    StepDone operator()(const FitStep& step) {
+        recall_history_and_balance(*mesh_, *run_);
+        distributed::StepOptions options = run_->options;
+        options.scheme = step.scheme;
+        options.closure = step.closure;
+        const Fitted fitted = fit(*mesh_, step, options, run_->balance, followers(0));
+        return {steps_fitted(fitted.refined, fitted.coarsened),
+                misfits_of(fitted.misfits, is_refined_before_ || fitted.refined > 0)};
     }
 
     StepDone operator()(const RebalanceStep&) {
@@ -142,8 +160,7 @@ private:
 };
 
 bool changes_cells(const ScriptStep& step) {
-    return std::holds_alternative<RefineStep>(step.step) ||
-           std::holds_alternative<CoarsenStep>(step.step);
+    return closure_of(step.step) || std::holds_alternative<CoarsenStep>(step.step);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include <octetra/distributed/fit.hpp>
+
 /// Texts of the report on a step.
 namespace octetra::cli {
 
@@ -20,6 +22,17 @@ struct StepDone {
 
 /// Returns "refined, 2 levels" etc.
 [[nodiscard]] std::string levels_done(std::string_view done, int levels);
+
+/// Returns "fitted, 3 levels refined, 1 coarsened".
+[[nodiscard]] std::string steps_fitted(int refined, int coarsened);
+
+/// Returns what does not fit after a fit, and why; nothing if all cells fit.
+[[nodiscard]] std::vector<std::string> misfits_of(const distributed::MisfitCells& misfits,
+                                                  bool has_history);
+
+/// Returns the note about a step with --target-cells whose last level refined only a part of the
+/// marked cells.
+[[nodiscard]] std::string reached_target(std::uint64_t refined, std::uint64_t marked);
 
 /// Returns "  (before: 1,026, 3,103)", given the numbers of vertices and cells.
 [[nodiscard]] std::string sizes_before(std::uint64_t vertices, std::uint64_t cells);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 
 #include <octetra/core/closure.hpp>
+#include <octetra/core/expression.hpp>
 #include <octetra/core/selection.hpp>
 
 #include "commands/coarsening_options.hpp"
@@ -24,12 +26,26 @@ struct CoarsenStep {
     Selection selection;  ///< as above
 };
 
+struct FitStep {
+    RefinementOptions typed;  ///< of its selection, only --size
+    Expression size;
+    Scheme scheme = Scheme::eight;
+    Closure closure = Closure::longest_edge;
+};
+
 struct WriteStep {
     std::string path;
 };
 
 struct RebalanceStep {};
 
-using Step = std::variant<RefineStep, CoarsenStep, RebalanceStep, WriteStep>;
+using Step = std::variant<RefineStep, CoarsenStep, FitStep, RebalanceStep, WriteStep>;
+
+/// Returns the closure by which a step refines, or nothing if it does not refine.
+[[nodiscard]] inline std::optional<Closure> closure_of(const Step& step) {
+    if (const auto* refine = std::get_if<RefineStep>(&step)) return refine->closure;
+    if (const auto* fit = std::get_if<FitStep>(&step)) return fit->closure;
+    return std::nullopt;
+}
 
 }  // namespace octetra::cli

@@ -18,6 +18,7 @@ void add_certify(CLI::App& program, const distributed::Communicator& world);
 void add_coarsen(CLI::App& program, const distributed::Communicator& world);
 void add_compare(CLI::App& program, const distributed::Communicator& world);
 void add_convert(CLI::App& program, const distributed::Communicator& world);
+void add_fit(CLI::App& program, const distributed::Communicator& world);
 void add_generate(CLI::App& program, const distributed::Communicator& world);
 void add_info(CLI::App& program, const distributed::Communicator& world);
 void add_partition(CLI::App& program, const distributed::Communicator& world);

@@ -252,6 +252,11 @@ bool refine_distributed(Plan plan, const Run& run) {
 void refine_with_history(const Plan& plan, const Script& one_step, AdaptationOptions options,
                          const distributed::Communicator& world) {
     if (plan.engine == Engine::reference) {
+        if (plan.step.typed.target_cells) {
+            throw InputError(
+                "--target-cells cannot be combined with --engine reference: omit it; "
+                "the default engine makes the same mesh as with a list of cells");
+        }
         if (has_size_file(one_step)) throw InputError(std::string(reference_lacks_size_files));
         const bool has_fields = !options.input.fields.empty();
         throw InputError(fmt::format(
@@ -274,7 +279,7 @@ void refine(const RefineOptions& given, const distributed::Communicator& all) {
     const bool is_reference = plan.engine == Engine::reference;
     const bool is_regular = plan.step.closure == Closure::regular && !is_reference;
     if (is_regular || is_checkpoint(options.input.path) || is_checkpoint(options.output) ||
-        !options.input.fields.empty() || has_size_file(one_step)) {
+        !options.input.fields.empty() || has_size_file(one_step) || plan.step.typed.target_cells) {
         return refine_with_history(plan, one_step, options, measured(all, options.profile));
     }
     Stopwatch watch;
@@ -303,6 +308,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
     add_refinement_options(*refine_command, options->refinement,
                            "Cells to refine (criteria are combined; at least one is required)");
     add_closure_option(*refine_command, options->refinement);
+    add_target_option(*refine_command, options->refinement);
     add_number(*refine_command, "--max-cells", options->adaptation.max_cells, whole_numbers_from(1),
                "fail, without writing, before a level that would exceed N cells")
         ->type_name("N");
@@ -328,6 +334,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"
         "  mpirun -n 4 octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu");
     refine_command->callback([options, refine_command, world] {
+        complete_levels(*refine_command, options->refinement);
         group_criteria(*refine_command, options->refinement.selection);
         refine(*options, world);
     });

@@ -18,10 +18,25 @@ void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
     add_number<std::uint64_t>(subcommand, "--levels", options.levels, {0, 50, "0 to 50"},
                               "number of levels; criteria are evaluated anew at each level [1]")
         ->type_name("L");
-    subcommand
+    add_scheme_option(subcommand, options);
+}
+
+CLI::Option* add_scheme_option(CLI::App& subcommand, RefinementOptions& options) {
+    return subcommand
         .add_option("--scheme", options.scheme,
                     "edges that a cell marks: all, the longest of each face, or its longest [8t]")
         ->type_name("8t|4t|2t");
+}
+
+void add_target_option(CLI::App& subcommand, RefinementOptions& options) {
+    add_number(subcommand, "--target-cells", options.target_cells, whole_numbers_from(1),
+               "refine by as many levels, at most L, and in the last one as many of the marked\n"
+               "cells, those with the longest edges, as make at most N cells [L is 50]")
+        ->type_name("N");
+}
+
+void complete_levels(const CLI::App& subcommand, RefinementOptions& options) {
+    if (options.target_cells && !was_given(subcommand, "levels")) options.levels = 50;
 }
 
 void add_closure_option(CLI::App& subcommand, RefinementOptions& options,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,11 +18,15 @@ struct RefinementOptions {
     std::string scheme = "8t";
     std::string closure = "longest-edge";
     int levels = 1;
+    std::optional<std::uint64_t> target_cells;
 };
 
 /// Declares the selection under the heading `group`, --levels and --scheme.
 void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
                             const std::string& group);
+
+/// Declares --scheme.
+CLI::Option* add_scheme_option(CLI::App& subcommand, RefinementOptions& options);
 
 /// Declares --closure, for subcommands that refine or verify a refinement.
 void add_closure_option(
@@ -28,6 +34,12 @@ void add_closure_option(
     const std::string& description =
         "regular: bounds the angles of all refinements that continue from a checkpoint with\nthe "
         "same option [longest-edge]");
+
+/// Declares --target-cells, for subcommands that refine.
+void add_target_option(CLI::App& subcommand, RefinementOptions& options);
+
+/// Sets the number of levels that --target-cells implies, unless it was given.
+void complete_levels(const CLI::App& subcommand, RefinementOptions& options);
 
 /// Returns whether the option with this name, without dashes, was given.
 [[nodiscard]] bool was_given(const CLI::App& subcommand, std::string_view name);

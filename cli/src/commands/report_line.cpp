@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -22,7 +23,8 @@ void report_line(bool quiet, std::string_view doing, std::uint64_t vertices, std
 std::function<void(int, std::uint64_t)> level_progress(bool quiet, int levels) {
     if (quiet || ::isatty(STDERR_FILENO) == 0) return {};
     return [levels](int level, std::uint64_t cells) {
-        print_error_text(fmt::format("\rlevel {} of {}: {} cells ", level, levels, grouped(cells)));
+        const std::string of = levels == 0 ? "" : fmt::format(" of {}", levels);
+        print_error_text(fmt::format("\rlevel {}{}: {} cells ", level, of, grouped(cells)));
     };
 }
 

@@ -58,6 +58,7 @@ const SelectionOptions* criteria_of(const Step& step) {
         return &refine->typed.selection;
     }
     if (const auto* coarsen = std::get_if<CoarsenStep>(&step)) return &coarsen->typed.selection;
+    if (const auto* fit = std::get_if<FitStep>(&step)) return &fit->typed.selection;
     return nullptr;
 }
 

@@ -12,6 +12,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/checkpoint.hpp>
 
+#include "commands/fit_options.hpp"
 #include "usage_errors.hpp"
 
 namespace octetra::cli {
@@ -93,7 +94,9 @@ Step parse_refine(std::vector<std::string> options) {
     RefineStep step;
     add_refinement_options(command, step.typed, "");
     add_closure_option(command, step.typed);
+    add_target_option(command, step.typed);
     parse_words(command, std::move(options));
+    complete_levels(command, step.typed);
     group_criteria(command, step.typed.selection);
     step.selection = parse_selection(step.typed.selection);
     step.scheme = parse_scheme(step.typed);
@@ -109,6 +112,14 @@ Step parse_coarsen(std::vector<std::string> options) {
     group_criteria(command, step.typed.selection);
     step.selection = parse_coarsening(step.typed);
     return step;
+}
+
+Step parse_fit(std::vector<std::string> options) {
+    LineCommand command("fit");
+    RefinementOptions typed;
+    add_fitting_options(command, typed, "");
+    parse_words(command, std::move(options));
+    return FitStep{typed, parse_target_size(typed), parse_scheme(typed), parse_closure(typed)};
 }
 
 Step parse_rebalance(const std::vector<std::string>& words) {
@@ -142,9 +153,10 @@ struct StepParser {
     Step (*parse)(std::vector<std::string> options);
 };
 
-constexpr std::array<StepParser, 5> step_parsers{
+constexpr std::array<StepParser, 6> step_parsers{
     {{"refine", parse_refine},
      {"coarsen", parse_coarsen},
+     {"fit", parse_fit},
      {"rebalance", [](std::vector<std::string> words) { return parse_rebalance(words); }},
      {"save", [](std::vector<std::string> words) { return parse_save(words); }},
      {"write", [](std::vector<std::string> words) { return parse_write(words); }}}};

@@ -10,6 +10,7 @@
 #include <octetra/core/orientation.hpp>
 
 #include "exact/angles.hpp"
+#include "exact/mean_ratio.hpp"
 #include "exact/measures.hpp"
 #include "exact/predicates.hpp"
 
@@ -157,6 +158,34 @@ TEST_F(Filters, OfAnglesDecideAsExactArithmetic) {
     }
     EXPECT_GT(less, cases / 5) << "seed " << seed_;
     EXPECT_LT(less, cases - cases / 5) << "seed " << seed_;
+}
+
+TEST(MeanRatio, IsComparedExactly) {
+    const std::array<Point, 4> of_a_cube{{{0, 0, 0}, {1, 0, 1}, {1, 1, 0}, {0, 1, 1}}};
+    Arithmetic arithmetic;
+    const auto is_less = [&](const std::array<Point, 4>& cell, double limit) {
+        return exact::is_mean_ratio_less(cell, limit, arithmetic);
+    };
+    for (const double scale : {1.0, 0x1p-900, 0x1p500}) {
+        for (const double far : {0.0, 0x1p30}) {
+            std::array<Point, 4> cell = of_a_cube;
+            for (Point& p : cell) p = {(p.x + far) * scale, p.y * scale, p.z * scale};
+            EXPECT_FALSE(is_less(cell, 1)) << scale << ' ' << far;
+            EXPECT_TRUE(is_less(cell, std::nextafter(1.0, 2.0)));
+            cell[3].y += 0x1p-20 * scale;  // any other cell has a smaller one
+            EXPECT_TRUE(is_less(cell, 1));
+            EXPECT_FALSE(is_less(cell, 1 - 0x1p-20));
+        }
+    }
+    // Here d = 1 and s = 9.
+    const std::array<Point, 4> corner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const double eta = std::cbrt(432.0 / 729);
+    EXPECT_TRUE(is_less(corner, std::nextafter(eta, 1.0)));
+    EXPECT_FALSE(is_less(corner, std::nextafter(eta, 0.0)));
+    const long double limit = eta;
+    EXPECT_EQ(is_less(corner, eta), 729 * (limit * limit * limit) > 432);
+    EXPECT_GT(arithmetic.exact, 0U);
+    EXPECT_GT(arithmetic.filtered, 0U);
 }
 
 }  // namespace

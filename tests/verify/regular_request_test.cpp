@@ -12,12 +12,14 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/shape.hpp>
 #include <octetra/reference/history.hpp>
 #include <octetra/reference/refine.hpp>
 #include <octetra/verify/certify_shapes.hpp>
 #include <octetra/verify/verify.hpp>
 
 #include "support/meshes.hpp"
+#include "support/refinement.hpp"
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
@@ -216,7 +218,7 @@ TEST(CertifiedShapes, BoundTheAnglesOfEachRegularlyRefinedCell) {
         return check.note;
     };
     for (const Mesh& coarse : coarse_meshes()) {
-        EXPECT_EQ(note_of(coarse), "dihedral angles, exactly");
+        EXPECT_EQ(note_of(coarse), "dihedral angles and eta, exactly");
     }
     // Far from the origin, rounding of midpoints changes the angles by more than that of bounds.
     Mesh far = test::kuhn(2, 1, 1, 0.5);
@@ -235,20 +237,26 @@ TEST(CertifiedShapes, AreExceededByLongestEdgeRefinement) {
     }
     const auto [fine, maps] =
         reference::refine(coarse, {.random = RandomShare{0.2, 1}}, Scheme::eight, 3);
-    std::array<std::uint64_t, 3> outside{};  // below alone, above alone, both
+    std::array<std::uint64_t, 4> outside{};  // below alone, above alone, both, eta alone
     constexpr double rounding = 1e-6;
     for (CellIndex c{0}; c < fine.cells.end_index(); ++c) {
         const auto [least, greatest] = extreme_angles(fine, fine.cells[c]);
         const ShapeBounds& bound = bounds[maps.cell_to_parent[c]];
         const bool is_below = least < bound.min_dihedral - rounding;
         const bool is_above = greatest > bound.max_dihedral + rounding;
-        if (is_below || is_above) ++outside[is_below && is_above ? 2 : is_above ? 1 : 0];
+        const double eta = mean_ratio(test::corners_of(fine, c));
+        if (is_below || is_above) {
+            ++outside[is_below && is_above ? 2 : is_above ? 1 : 0];
+        } else if (eta < bound.min_eta - rounding) {
+            ++outside[3];
+        }
     }
     EXPECT_GT(outside[0], 0U);
     EXPECT_GT(outside[1], 0U);
+    EXPECT_GT(outside[3], 0U);
     const Verdict verdict = test::verified_by_all(coarse, fine, {.closure = Closure::regular}, {3});
-    EXPECT_EQ(verdict.count(Code::dihedral_beyond_certificate),
-              outside[0] + outside[1] + outside[2]);
+    EXPECT_EQ(verdict.count(Code::shape_beyond_certificate),
+              outside[0] + outside[1] + outside[2] + outside[3]);
     EXPECT_EQ(check_named(verdict, "certified shapes").status, Status::failed);
 }
 

@@ -1,37 +1,15 @@
 #include "exact/angles.hpp"
 
-#include <gmpxx.h>
 #include <mpfr.h>
 
 #include <cmath>
 #include <optional>
 
-#include <CGAL/Interval_nt.h>
-
 #include "exact/near_one.hpp"
+#include "exact/vectors.hpp"
 
 namespace octetra::verify::exact {
 namespace {
-
-using Interval = CGAL::Interval_nt<false>;
-
-template <class T>
-using Vector = std::array<T, 3>;
-
-template <class T>
-Vector<T> between(const Point& a, const Point& b) {
-    return {T(b.x) - T(a.x), T(b.y) - T(a.y), T(b.z) - T(a.z)};
-}
-
-template <class T>
-T dot(const Vector<T>& u, const Vector<T>& v) {
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-template <class T>
-Vector<T> cross(const Vector<T>& u, const Vector<T>& v) {
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 
 /// The cosine of an angle as numerator / sqrt(square), square > 0.
 template <class T>
@@ -50,15 +28,6 @@ Cosine<T> dihedral_cosine(const Point& a, const Point& b, const Point& c, const 
     const auto edge = between<T>(a, b);
     return cosine_between(cross(edge, between<T>(a, c)), cross(edge, between<T>(a, d)));
 }
-
-/// The sign of a number; nothing if it is not known.
-std::optional<int> sign_of(const Interval& x) {
-    if (x.inf() > 0) return 1;
-    if (x.sup() < 0) return -1;
-    if (x.inf() == 0 && x.sup() == 0) return 0;
-    return std::nullopt;
-}
-std::optional<int> sign_of(const mpq_class& x) { return sgn(x); }
 
 /// Returns whether numerator / sqrt(square) > c, given the sign of c and c squared; nothing if
 /// undecided.

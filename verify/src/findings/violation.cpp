@@ -45,7 +45,7 @@ std::string_view name(Code code) {
                                                                     "missing_bisection",
                                                                     "wrong_pattern",
                                                                     "bisected_transition_cell",
-                                                                    "dihedral_beyond_certificate",
+                                                                    "shape_beyond_certificate",
                                                                     "vertex_not_before",
                                                                     "vertex_went",
                                                                     "vertex_stayed",

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "exact/angles.hpp"
+#include "exact/mean_ratio.hpp"
 #include "measures/rounding_bounds.hpp"
 #include "parts/exchange.hpp"
 #include "refinement/checks.hpp"
@@ -65,6 +66,29 @@ double angle_error(const Shape<4>& shape) {
     return static_cast<double>(2 * 90 * turned / least_normal * up);
 }
 
+/// Returns an upper bound of the mean ratio of the cell with exact midpoints. Six times the volume
+/// deviates by at most volume_bound(), and a squared length by at most e (2 L + e).
+double exact_mean_ratio_at_most(const Shape<4>& shape) {
+    const auto& p = shape.corners;
+    std::array<std::array<Bound, 3>, 3> rows{};
+    Bound squares = 0;
+    for (const auto& [i, j] : cell_edges) {
+        const std::array<Bound, 3> edge{Bound{p[j].x} - p[i].x, Bound{p[j].y} - p[i].y,
+                                        Bound{p[j].z} - p[i].z};
+        squares += edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2];
+        if (i == 0) rows.at(j - 1U) = edge;
+    }
+    const auto& [u, v, w] = rows;
+    const Bound volume = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+                         u[2] * (v[0] * w[1] - v[1] * w[0]);
+    const Bound length = shape.longest_edge();
+    constexpr Bound of_this_sum = 0x1p-58L;  // in units of length^3
+    const Bound greatest = volume + volume_bound(shape) + of_this_sum * length * length * length;
+    const Bound least = squares - 6 * shape.edge_error() * (2 * length + shape.edge_error()) * up;
+    if (least <= 0) return 1;
+    return static_cast<double>(12 * std::cbrt(greatest / 2 * (greatest / 2)) / least * up);
+}
+
 class CertifiedShapesCheck {
 public:
     CertifiedShapesCheck(const JudgedMesh& coarse, const JudgedMesh& fine, const Descent& descent,
@@ -86,9 +110,9 @@ public:
         }
         const std::uint64_t by_slack = sum(findings_.group(), up_to_rounding_);
         const std::uint64_t unknown = sum(findings_.group(), beyond_open_sets_);
-        std::string note = by_slack == 0 ? "dihedral angles, exactly"
+        std::string note = by_slack == 0 ? "dihedral angles and eta, exactly"
                                          : fmt::format(
-                                               "dihedral angles, of {} cells only up to "
+                                               "dihedral angles and eta, of {} cells only up to "
                                                "the rounding of midpoints",
                                                by_slack);
         if (unknown > 0)
@@ -119,24 +143,51 @@ private:
             ++beyond_open_sets_;
             return;
         }
-        Arithmetic& arithmetic = findings_.arithmetic();
         const Shape<4> shape = shape_of(fine_.mesh.cells[c], fine_.mesh, descent_);
-        if (certified.limits.hold_for(shape.corners, arithmetic)) return;
+        const Fit angles = fit_of_angles(shape, certified);
+        const Fit eta = fit_of_eta(shape, certified.bounds.min_eta);
         const auto& bounds = certified.bounds;
+        if (angles == Fit::none) {
+            report(
+                c, "a dihedral angle that regular refinement cannot make",
+                fmt::format("{:.6g} to {:.6g} degrees", bounds.min_dihedral, bounds.max_dihedral));
+        } else if (eta == Fit::none) {
+            report(c, "an eta that regular refinement cannot make",
+                   fmt::format("at least {:.6g}", bounds.min_eta));
+        } else if (angles == Fit::up_to_rounding || eta == Fit::up_to_rounding) {
+            ++up_to_rounding_;
+        }
+    }
+
+    /// Whether a cell is within the bounds.
+    enum class Fit { exact, up_to_rounding, none };
+
+    Fit fit_of_angles(const Shape<4>& shape, const Certified& certified) {
+        Arithmetic& arithmetic = findings_.arithmetic();
+        if (certified.limits.hold_for(shape.corners, arithmetic)) return Fit::exact;
         if (shape.rounding > 0) {
             const double error = angle_error(shape);
+            const auto& bounds = certified.bounds;
             const DihedralLimits widened(std::max(0.0, bounds.min_dihedral - error),
                                          std::min(180.0, bounds.max_dihedral + error));
-            if (widened.hold_for(shape.corners, arithmetic)) {
-                ++up_to_rounding_;
-                return;
-            }
+            if (widened.hold_for(shape.corners, arithmetic)) return Fit::up_to_rounding;
         }
-        findings_.add(Code::dihedral_beyond_certificate, [&]() -> Findings::Description {
+        return Fit::none;
+    }
+
+    Fit fit_of_eta(const Shape<4>& shape, double least) {
+        if (!exact::is_mean_ratio_less(shape.corners, least, findings_.arithmetic())) {
+            return Fit::exact;
+        }
+        const bool is_rounded = shape.rounding > 0 && exact_mean_ratio_at_most(shape) >= least;
+        return is_rounded ? Fit::up_to_rounding : Fit::none;
+    }
+
+    void report(CellIndex c, const char* found, const std::string& certified) {
+        findings_.add(Code::shape_beyond_certificate, [&]() -> Findings::Description {
             return {{entity(c), entity(descent_.parent[c], Which::coarse)},
-                    "a dihedral angle that regular refinement cannot make",
-                    fmt::format("{:.6g} to {:.6g} degrees, as certified for the coarse cell",
-                                bounds.min_dihedral, bounds.max_dihedral)};
+                    found,
+                    certified + ", as certified for the coarse cell"};
         });
     }
 
@@ -154,7 +205,7 @@ private:
         } catch (const shapes::CellCertifier::TooThin&) {
             // Nothing is proved about its descendants.
         }
-        const Key key{bounds.min_dihedral, bounds.max_dihedral, last_generation};
+        const Key key{bounds.min_dihedral, bounds.max_dihedral, bounds.min_eta, last_generation};
         known = &certified_.try_emplace(key, bounds, last_generation).first->second;
         return *known;
     }
@@ -164,7 +215,7 @@ private:
     const Descent& descent_;
     Findings& findings_;
     shapes::Certificates certificates_;
-    using Key = std::tuple<double, double, int>;
+    using Key = std::tuple<double, double, double, int>;
     std::map<Key, Certified> certified_;
     IndexVector<CellIndex, const Certified*> of_root_;  ///< null if not known yet
     std::uint64_t up_to_rounding_ = 0;

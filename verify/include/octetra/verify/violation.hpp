@@ -58,8 +58,8 @@ enum class Code : std::uint8_t {
     missing_bisection,   ///< an edge is not bisected although closure marks it
     wrong_pattern,       ///< the right edges are bisected, but in a wrong order
     // of the regular closure
-    bisected_transition_cell,     ///< a child of a cell with one to five bisected edges is bisected
-    dihedral_beyond_certificate,  ///< outside the bounds certified for the coarse cell
+    bisected_transition_cell,  ///< a child of a cell with one to five bisected edges is bisected
+    shape_beyond_certificate,  ///< outside the bounds certified for the coarse cell
     // of coarsening
     vertex_not_before,     ///< a vertex is not in the mesh before
     vertex_went,           ///< a vertex was removed although the rules keep it

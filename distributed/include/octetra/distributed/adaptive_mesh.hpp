@@ -158,7 +158,9 @@ public:
 
     /// Collective. The same as refine(), but first migrates cells if the step would leave the
     /// processes with uneven numbers of cells. They migrate after closure, when the number of
-    /// children of each cell is known, and before bisection, when the data to move are small.
+    /// children of each cell is known, and before bisection, when the data to move are small. With
+    /// Closure::regular, whose levels are known one after the other, cells migrate if their present
+    /// numbers are uneven, and BalanceOptions::only_if_it_pays has no effect.
     EvenStep refine_evenly(std::span<const std::uint8_t> marks, const BalanceOptions& balance = {},
                            const StepOptions& options = {});
     EvenStep refine_evenly(const Selection& selection, const BalanceOptions& balance = {},

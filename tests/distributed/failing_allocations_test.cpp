@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -226,6 +227,32 @@ TEST(FailingAllocations, OfFitsAndPredictionsLeaveTheMeshAsItWasOnAllProcesses) 
         };
         EXPECT_GT(fail_each_allocation_of_step(1, prepare, closure), 200U);
     }
+}
+
+TEST(FailingAllocations, OfSizesAreThrownOnAllProcesses) {
+    for (const char* const text :
+         {"longest > size(h)", "longest > graded(x, 1.2)", "longest > background(b)"}) {
+        SCOPED_TRACE(text);
+        const Selection selection{.where = {Expression(text)}};
+        const std::uint64_t refused = fail_each_allocation_of_step(1, [&](AdaptiveMesh& mesh) {
+            const Field sizes{"h", FieldOn::vertices, 1,
+                              std::vector<double>(mesh.points().size(), 0.1)};
+            const Background background = mesh.as_background("b", sizes);
+            return [&mesh, &selection, sizes, background] {
+                (void)mesh.marked_cells(selection, std::span(&sizes, 1), std::span(&background, 1));
+            };
+        });
+        EXPECT_GT(refused, 50U);
+    }
+}
+
+TEST(FailingAllocations, OfABackgroundAreThrownOnAllProcesses) {
+    const std::uint64_t refused = fail_each_allocation_of_step(1, [](AdaptiveMesh& mesh) {
+        const Field sizes{"h", FieldOn::vertices, 1,
+                          std::vector<double>(mesh.points().size(), 0.1)};
+        return [&mesh, sizes] { (void)mesh.as_background("b", sizes); };
+    });
+    EXPECT_GT(refused, 10U);
 }
 
 TEST(FailingAllocations, OfLevelsAreThrownOnAllProcesses) {

@@ -1,5 +1,8 @@
 #include "select/background_cells.hpp"
 
+#include <functional>
+#include <optional>
+
 #include <octetra/core/triangle_tree.hpp>
 
 #include "mark/selection_bounds.hpp"
@@ -83,9 +86,14 @@ ClosestValue closest_of_triangle(const Point& p, const Triangle& triangle,
     return {inner(rest, rest), interpolated(values, weights)};
 }
 
-}  // namespace
+bool is_in_box(const Point& p, const Box& box) {
+    return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y &&
+           box.low.z <= p.z && p.z <= box.high.z;
+}
 
-ClosestValue closest_value(const Point& p, const BackgroundCell& cell) {
+/// Returns the value at a point of the cell, or nothing for a point outside.
+std::optional<double> value_inside(const Point& p, const BackgroundCell& cell) {
+    if (!is_in_box(p, box_of(cell.corners))) return {};
     const auto& [a, b, c, d] = cell.corners;
     const Vector ab = from_to(a, b);
     const Vector ac = from_to(a, c);
@@ -97,16 +105,20 @@ ClosestValue closest_value(const Point& p, const BackgroundCell& cell) {
     const double of_d = determinant(ab, ac, ap) / volume;
     const double of_a = determinant(from_to(p, b), from_to(p, c), from_to(p, d)) / volume;
     // Comparisons with NaN, of a cell that is flat after rounding, are false.
-    if (of_a >= 0 && of_b >= 0 && of_c >= 0 && of_d >= 0) {
-        return {0, interpolated<4>(cell.values, {of_a, of_b, of_c, of_d})};
-    }
+    if (!(of_a >= 0 && of_b >= 0 && of_c >= 0 && of_d >= 0)) return {};
+    return interpolated<4>(cell.values, {of_a, of_b, of_c, of_d});
+}
+
+}  // namespace
+
+ClosestValue closest_value(const Point& p, const BackgroundCell& cell) {
+    if (const auto value = value_inside(p, cell)) return {0, *value};
     ClosestValue closest;
     for (const auto& [i, j, k] : cell_faces) {
-        closest =
-            std::min(closest,
-                     closest_of_triangle(p, {cell.corners[i], cell.corners[j], cell.corners[k]},
-                                         {cell.values[i], cell.values[j], cell.values[k]}),
-                     [](const ClosestValue& x, const ClosestValue& y) { return x < y; });
+        const ClosestValue found =
+            closest_of_triangle(p, {cell.corners[i], cell.corners[j], cell.corners[k]},
+                                {cell.values[i], cell.values[j], cell.values[k]});
+        if (found < closest) closest = found;
     }
     return closest;
 }
@@ -116,8 +128,19 @@ Box BackgroundCells::BoxOfCell::operator()(const BackgroundCell& cell) const {
 }
 
 ClosestValue BackgroundCells::closest(const Point& p, ClosestValue bound) const {
-    double limit = limit_of_boxes(slightly_more(bound.squared));
+    // Most points are in a cell: then no other cell is closer.
+    double limit = limit_of_boxes(0);
+    bool is_inside = false;
     tree_.visit_near(p, limit, [&](const BackgroundCell& cell) {
+        const auto value = value_inside(p, cell);
+        if (!value) return;
+        is_inside = true;
+        bound = std::min(bound, {0, *value}, std::less<>());
+    });
+    if (is_inside) return bound;
+    limit = limit_of_boxes(slightly_more(bound.squared));
+    tree_.visit_near(p, limit, [&](const BackgroundCell& cell) {
+        if (least_squared_distance(p, box_of(cell.corners)) > limit) return;
         const ClosestValue found = closest_value(p, cell);
         if (!(found < bound)) return;
         bound = found;

@@ -129,7 +129,7 @@ CASES = {
         octetra.Fit, m, levels="a"),
     "next() missing 1 required positional argument: 'sizes'": lambda m: Call(np.ones(len(m.cells)))(
         octetra.Fit(m).next),
-    "sizes must be an array of numbers, not 'a'": lambda m: Call(np.ones(len(m.cells)))(
+    "sizes must be numbers of shape (n,), not <U1 of shape ()": lambda m: Call(np.ones(len(m.cells)))(
         octetra.Fit(m).misfit_cells, "a"),
     "cells_after() missing 1 required positional argument: 'marks'": lambda m: Call(None)(m.cells_after),
     "count must be an integer from 0 to 18446744073709551615, not -1": lambda m: Call(None, 9)(

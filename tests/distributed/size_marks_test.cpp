@@ -3,7 +3,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,7 @@
 #include <octetra/core/expression.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 
-#include "distributed/adaptive_steps.hpp"
+#include "distributed/evaluated_mesh.hpp"
 #include "support/tagged_meshes.hpp"
 #include "support/thrown.hpp"
 
@@ -22,9 +21,7 @@
 namespace octetra::distributed {
 namespace {
 
-Selection too_large(const std::string& size) {
-    return {.where = {Expression("longest > (" + size + ")")}};
-}
+std::string too_large(const std::string& size) { return "longest > (" + size + ")"; }
 
 /// All numbers are multiples of a power of two, so that sums and products are exact.
 double size_at(const Point& p) { return 0.25 + p.x / 8 + p.y / 16; }
@@ -92,28 +89,13 @@ double longest_by_metric(const Corners& corners, auto&& metric) {
     return longest;
 }
 
-class SizeMarks : public AdaptiveMeshIn {
+class SizeMarks : public EvaluatedMesh {
 protected:
-    /// Collective. Returns the marks of all cells in canonical order, on every process.
-    static std::vector<std::uint8_t> all_marks(const AdaptiveMesh& mesh,
-                                               const Selection& selection) {
-        std::map<std::uint64_t, std::uint8_t> by_number;
-        const auto numbers = test::of_all(mesh.cell_numbers());
-        const auto lists = test::of_all(mesh.marked_cells(selection, size_fields(mesh)));
-        for (std::size_t r = 0; r < numbers.size(); ++r) {
-            for (std::size_t c = 0; c < numbers[r].size(); ++c) {
-                by_number[numbers[r][c]] = lists[r][c];
-            }
-        }
-        std::vector<std::uint8_t> all;
-        for (const auto& [number, mark] : by_number) all.push_back(mark);
-        return all;
-    }
     /// Collective. Expects the cells whose longest edge is longer than size(whole mesh, cell).
     static void expect_too_large(const AdaptiveMesh& mesh, const std::string& text,
                                  const std::function<double(const Mesh&, CellIndex)>& size) {
         SCOPED_TRACE(text);
-        const auto marks = all_marks(mesh, too_large(text));
+        const auto marks = marks_where(mesh, too_large(text), size_fields(mesh));
         const Mesh whole = mesh.collect();
         if (!mesh.processes().is_first()) return;
         ASSERT_EQ(marks.size(), whole.cells.size());
@@ -156,8 +138,8 @@ TEST_P(SizeMarks, AreTheCellsWithAnEdgeLongerThanTheSizeAtTheirCentroid) {
 TEST_P(SizeMarks, OfAMetricAreTheCellsWithAnEdgeLongerThanOne) {
     AdaptiveMesh mesh = distributed_mesh(test::tagged(test::kuhn(3, 3, 3)), GetParam());
     (void)mesh.refine(steps[0]);
-    const Selection by_length{.where = {Expression("metric_longest(m) > 1")}};
-    EXPECT_EQ(all_marks(mesh, too_large("size(m)")), all_marks(mesh, by_length));
+    EXPECT_EQ(marks_where(mesh, too_large("size(m)"), size_fields(mesh)),
+              marks_where(mesh, "metric_longest(m) > 1", size_fields(mesh)));
 }
 
 TEST_P(SizeMarks, AreRefusedForTheFaultyValueWithTheLowestNumber) {

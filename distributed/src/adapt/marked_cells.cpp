@@ -39,6 +39,20 @@ void check_same_names(const Communicator& processes, std::span<const Background>
     processes.check_same("backgrounds", names);
 }
 
+/// Collective. Returns the result of `work`, in a transaction that checks the values first.
+auto with_values(const AdaptiveMesh::State& state, std::span<const Field> fields,
+                 std::span<const Background> backgrounds, auto&& work) {
+    const StandardArithmetic standard;
+    const Communicator& processes = state.mesh.processes;
+    const Phase phase(processes, "select");
+    return processes.transaction([&] {
+        check_sizes(state.mesh, fields);
+        check_same(processes, fields);
+        check_same_names(processes, backgrounds);
+        return work();
+    });
+}
+
 }  // namespace
 
 std::function<MarkedCells()> marks_of(const AdaptiveMesh::State& state,
@@ -54,25 +68,14 @@ std::function<MarkedCells()> marks_of(const AdaptiveMesh::State& state,
 std::vector<std::uint8_t> AdaptiveMesh::marked_cells(
     const Selection& selection, std::span<const Field> fields,
     std::span<const Background> backgrounds) const {
-    const StandardArithmetic standard;
-    const Phase phase(processes(), "select");
-    return processes().transaction([&] {
-        check_sizes(state_->mesh, fields);
-        check_same(processes(), fields);
-        check_same_names(processes(), backgrounds);
-        return select(*state_, selection, fields, backgrounds);
-    });
+    return with_values(*state_, fields, backgrounds,
+                       [&] { return select(*state_, selection, fields, backgrounds); });
 }
 
 std::vector<double> AdaptiveMesh::cell_values(const Expression& expression,
                                               std::span<const Field> fields,
                                               std::span<const Background> backgrounds) const {
-    const StandardArithmetic standard;
-    const Phase phase(processes(), "select");
-    return processes().transaction([&] {
-        check_sizes(state_->mesh, fields);
-        check_same(processes(), fields);
-        check_same_names(processes(), backgrounds);
+    return with_values(*state_, fields, backgrounds, [&] {
         check_history(*state_, {.where = {expression}});
         return evaluate_cells(state_->mesh, expression,
                               {fields, &state_->sharing, &state_->numbers, backgrounds});

@@ -195,14 +195,13 @@ public:
         const Expression& expression, std::span<const Field> fields = {},
         std::span<const Background> backgrounds = {}) const;
 
-    /// Collective. Returns the number of cells that the whole mesh would have after refine() with
-    /// these arguments, except for the limit max_cells, and leaves the mesh unchanged.
+    /// Collective. Returns the number of cells of the whole mesh that refine() would make, with any
+    /// max_cells. The mesh is unchanged.
     [[nodiscard]] std::uint64_t cells_after(std::span<const std::uint8_t> marks,
                                             const StepOptions& options = {});
-    /// Collective. Returns those of the marked cells with the longest edges, as many as refine()
-    /// can refine without making more than `cells` cells of the whole mesh; of cells with edges of
-    /// the same length, those with the lowest numbers in files. The same cells on any number of
-    /// processes. Takes the time of about log2(number of marked cells) closures.
+    /// Collective. Returns those of the marked cells with the longest edges, and of equally long
+    /// ones those with the lowest numbers, as many as refine() can refine without exceeding `cells`
+    /// cells. Takes the time of at most 4 log2(number of marked cells) closures.
     [[nodiscard]] std::vector<std::uint8_t> marks_within(std::span<const std::uint8_t> marks,
                                                          std::uint64_t cells,
                                                          const StepOptions& options = {});

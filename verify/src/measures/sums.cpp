@@ -135,7 +135,7 @@ ProcessGroup::Bytes packed(const std::vector<TagTotal>& totals) {
     return std::move(pack.bytes());
 }
 
-std::vector<TagTotal> unpacked(const ProcessGroup::Bytes& bytes) {
+std::vector<TagTotal> unpacked_totals(const ProcessGroup::Bytes& bytes) {
     Unpacker unpack(bytes);
     std::uint64_t count = 0;
     unpack(count);
@@ -155,7 +155,7 @@ std::vector<TagTotal> totals_of_all(std::vector<TagTotal> totals, const ProcessG
     ProcessGroup::Bytes own = packed(totals);
     totals.clear();
     for (const auto& bytes : group.of_all(std::move(own))) {
-        for (TagTotal& total : unpacked(bytes)) totals.push_back(std::move(total));
+        for (TagTotal& total : unpacked_totals(bytes)) totals.push_back(std::move(total));
     }
     std::stable_sort(totals.begin(), totals.end(),
                      [](const TagTotal& a, const TagTotal& b) { return a.tag < b.tag; });

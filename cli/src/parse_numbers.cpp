@@ -1,6 +1,5 @@
 #include "parse_numbers.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -8,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/from_chars.hpp>
 
 namespace octetra::cli {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 template <class Number>
 std::errc take_number(const char*& next, const char* end, Number& number) {
     if (next != end && *next == '+' && next + 1 != end && next[1] != '-') ++next;
-    const auto [stop, error] = std::from_chars(next, end, number);
+    const auto [stop, error] = from_chars(next, end, number);
     next = stop;
     return error;
 }

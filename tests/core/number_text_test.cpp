@@ -1,14 +1,20 @@
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <random>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <octetra/core/from_chars.hpp>
 
 #include "files/input/fields.hpp"
 #include "files/input/line_reader.hpp"
@@ -159,6 +165,48 @@ TEST(TextLength, OfConsecutiveNumbersIsTheirSum) {
     constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
     EXPECT_EQ(text_length_between(last - 2, last), 40);
     EXPECT_EQ(text_length_between(9'999'999'998, 10'000'000'003), 2 * 10 + 3 * 11);
+}
+
+struct Parsed {
+    std::ptrdiff_t length;
+    std::errc error;
+    std::uint64_t bits;
+    bool operator==(const Parsed&) const = default;
+};
+
+/// Before the number, 7 is stored where it belongs.
+Parsed parsed(const std::string& text, auto parse) {
+    double number = 7;
+    const auto [stop, error] = parse(text.data(), text.data() + text.size(), number);
+    return {stop - text.data(), error, std::bit_cast<std::uint64_t>(number)};
+}
+
+TEST(FromChars, ByStrtodHasTheResultsOfTheStandardLibrary) {
+    const auto expect_same = [](const std::string& text) {
+        const auto standard = [](const char* first, const char* last, double& number) {
+            return std::from_chars(first, last, number);
+        };
+        EXPECT_EQ(parsed(text, from_chars_by_strtod), parsed(text, standard)) << text;
+    };
+    for (const char* const text : {"",       "+1",        " 1",
+                                   "-",      "-0",        "0x1p3",
+                                   "1e400",  "-1e400",    "1e-400",
+                                   "5e-324", "2.2e-308",  "1e",
+                                   "1e+",    "1.5e-7,",   ".5",
+                                   "5.",     ".",         "-.5e2x",
+                                   "inf",    "-Infinity", "infinite",
+                                   "1,5",    "1 2",       "1_0",
+                                   "--1",    "-+1",       "0.1000000000000000055511151231257827"}) {
+        expect_same(text);
+    }
+    std::mt19937 random(5);
+    for (int i = 0; i < 200'000; ++i) {
+        std::string text;
+        for (auto left = 1 + random() % 12; left > 0; --left) {
+            text += "0123456789.-+eExinf, "[random() % 21];
+        }
+        expect_same(text);
+    }
 }
 
 /// Lines with and without comments, in a file of several buffers.

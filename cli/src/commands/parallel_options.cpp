@@ -1,12 +1,12 @@
 #include "commands/parallel_options.hpp"
 
 #include <array>
-#include <charconv>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/from_chars.hpp>
 
 #include "choice.hpp"
 
@@ -61,7 +61,7 @@ std::optional<distributed::BalanceOptions> balance_of(const ParallelOptions& opt
     if (word == "never") return std::nullopt;
     double share = -1;
     const char* const end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, share);
+    const auto [stop, error] = from_chars(word.data(), end, share);
     if (error != std::errc{} || stop != end || !(share >= 0 && share <= 1e9)) {
         throw InputError(
             fmt::format("--rebalance takes auto, never or a number from 0 to 1e9, not '{}'", word));

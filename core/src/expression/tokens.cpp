@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/from_chars.hpp>
 
 namespace octetra::expression {
 namespace {
@@ -63,7 +63,7 @@ private:
     Token number() {
         Token token{TokenKind::number, at_, "", 0};
         const char* const begin = text_.data() + at_;
-        const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), token.number);
+        const auto [end, error] = from_chars(begin, text_.data() + text_.size(), token.number);
         token.text = std::string(begin, end);
         at_ += token.text.size();
         if (error != std::errc() || !std::isfinite(token.number)) {

@@ -1,12 +1,12 @@
 #include "files/input/fields.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include <octetra/core/from_chars.hpp>
 #include <octetra/core/point.hpp>
 
 namespace octetra {
@@ -62,7 +62,7 @@ Number Fields::number(std::string_view what, std::string_view kind) {
     const char* first = next_;
     if (*first == '+' && first + 1 != end_ && first[1] != '-') ++first;
     Number value{};
-    const auto [stop, error] = std::from_chars(first, end_, value);
+    const auto [stop, error] = from_chars(first, end_, value);
     const bool whole_token = stop == end_ || is_blank(*stop);
     if (error == std::errc::result_out_of_range && whole_token) {
         reader_->fail(fmt::format("{} is out of range: {}", what, shown(token_at(next_, end_))));

@@ -27,4 +27,17 @@ void check_initialised() {
     }
 }
 
+void check_group(const distributed::Communicator& processes, MPI_Comm comm) {
+    check_initialised();
+    int rank = 0;
+    int size = 0;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    if (rank != processes.rank() || size != processes.size()) {
+        throw InputError(
+            fmt::format("rank {} of {} of the mesh is rank {} of {} of the communicator",
+                        processes.rank(), processes.size(), rank, size));
+    }
+}
+
 }  // namespace octetra::petsc

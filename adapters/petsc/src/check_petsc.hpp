@@ -2,6 +2,8 @@
 
 #include <petscsys.h>
 
+#include <octetra/distributed/communicator.hpp>
+
 namespace octetra::petsc {
 
 /// Throws if the error code of a PETSc function indicates an error: std::bad_alloc or SystemError.
@@ -9,6 +11,10 @@ void check(PetscErrorCode code);
 
 /// Throws InputError unless PETSc is initialised.
 void check_initialised();
+
+/// Throws InputError unless PETSc is initialised and `comm` has the processes of a mesh in the same
+/// order. Not collective.
+void check_group(const distributed::Communicator& processes, MPI_Comm comm);
 
 /// During the lifetime of an object, PETSc returns errors without printing.
 class SilentErrors {

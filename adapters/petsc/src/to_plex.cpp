@@ -49,19 +49,6 @@ private:
     DM plex_ = nullptr;
 };
 
-void check_group(const Communicator& processes, MPI_Comm comm) {
-    check_initialised();
-    int rank = 0;
-    int size = 0;
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &size);
-    if (rank != processes.rank() || size != processes.size()) {
-        throw InputError(
-            fmt::format("rank {} of {} of the mesh is rank {} of {} of the communicator",
-                        processes.rank(), processes.size(), rank, size));
-    }
-}
-
 PlexPoints points_for(const AdaptiveMesh& mesh, const MeshFaces& faces, const MeshEdges& edges) {
     const std::uint64_t count = std::uint64_t{mesh.cells().size()} + mesh.points().size() +
                                 faces.vertices.size() + edges.vertices.size();

@@ -118,6 +118,8 @@ class Package(unittest.TestCase):
             self.check_solutions(built / "petsc_plex", ranks)
         if (built / "adaptive_poisson").exists():  # if PETSc is installed
             self.check_rates(built / "adaptive_poisson", [n for n in ranks if n < 4])
+        if (built / "multigrid_poisson").exists():  # if PETSc is installed
+            self.check_iterations(built / "multigrid_poisson", [n for n in ranks if n < 4])
 
     def check_fronts(self, program, ranks):
         """The meshes are the same on any number of ranks and in the Python example; heat is
@@ -159,6 +161,17 @@ class Package(unittest.TestCase):
                 # A solver's rounding differs with the number of ranks, and so may adaptive meshes.
                 if kind == "uniform":
                     self.assertEqual(rows[-1][:2], ["73728", "14161"])
+
+    def check_iterations(self, program, ranks):
+        """Multigrid on the levels of the mesh takes at most 20 iterations, and hardly more as the
+        mesh grows."""
+        for closure in ("longest-edge", "regular"):
+            for n in ranks:
+                rows = [line.split() for line in run(mpirun, n, program, closure, 20_000).splitlines()]
+                iterations = [int(row[3]) for row in rows[2:] if int(row[1]) >= 1000]
+                self.assertGreaterEqual(len(iterations), 4)
+                self.assertLessEqual(max(iterations), 15, rows)
+                self.assertLessEqual(iterations[-1], 1.5 * iterations[0], rows)
 
     def test_static_libraries_are_found_where_they_were_moved_to(self):
         prefix = self.installed(build)

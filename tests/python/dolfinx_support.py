@@ -12,6 +12,7 @@ import dolfinx.fem.petsc  # noqa: E402
 import ufl  # noqa: E402
 from dolfinx import cpp, fem  # noqa: E402
 from dolfinx.mesh import CellType, GhostMode, create_box, create_mesh, meshtags  # noqa: E402
+from petsc4py import PETSc  # noqa: E402
 
 VERSION = tuple(int(word) for word in dolfinx.__version__.split(".")[:2])
 IS_OLD = VERSION < (0, 9)  # 0.5
@@ -156,3 +157,12 @@ def solve(domain):
     if VERSION >= (0, 10):
         options["petsc_options_prefix"] = "solve_"
     return fem.petsc.LinearProblem(a, right, bcs=[fixed], **options).solve(), exact
+
+
+def assembled(a, right):
+    """The matrix and the vector of two forms."""
+    matrix = fem.petsc.assemble_matrix(fem.form(a))
+    matrix.assemble()
+    vector = fem.petsc.assemble_vector(fem.form(right))
+    vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
+    return matrix, vector

@@ -9,6 +9,7 @@
 
 from typing import Any, List, NamedTuple, Optional
 
+import numpy as np
 from numpy.typing import NDArray
 from petsc4py import PETSc  # type: ignore[import]  # initialises PETSc
 
@@ -81,3 +82,28 @@ def interpolations(levels: List[Level], comm: Optional[Any] = None) -> List[Any]
         sizes = ((owned[k + 1], None), (owned[k], None))
         matrices.append(PETSc.Mat().createAIJ(sizes, csr=rows, comm=comm))  # type: ignore[attr-defined]
     return matrices
+
+
+def with_components(matrix: Any, components: int) -> Any:
+    """Collective. Returns the petsc4py.PETSc.Mat that applies a matrix to each component of vectors in which all
+    components of a row are together; the matrix itself for one component."""
+    if components == 1:
+        return matrix
+    begin, columns, values = matrix.getValuesCSR()
+    lengths = np.repeat(np.diff(begin), components)
+    entry = np.repeat(np.repeat(begin[:-1], components), lengths) + _positions(lengths)
+    component = np.repeat(np.tile(np.arange(components), len(begin) - 1), lengths)
+    rows = (np.concatenate([[0], np.cumsum(lengths)]).astype(PETSc.IntType),  # type: ignore[attr-defined]
+            (columns[entry] * components + component).astype(PETSc.IntType), values[entry])  # type: ignore[attr-defined]
+    sizes = tuple((own * components, None) for own in matrix.getLocalSize())
+    made = PETSc.Mat().create(matrix.comm)  # type: ignore[attr-defined]
+    made.setSizes(sizes)
+    made.setBlockSizes(components, components)
+    made.setType("aij")
+    made.setPreallocationCSR(rows)
+    return made
+
+
+def _positions(lengths: NDArray[Any]) -> NDArray[Any]:
+    """0, 1, ... within each run of these lengths."""
+    return np.arange(lengths.sum()) - np.repeat(np.cumsum(lengths) - lengths, lengths)

@@ -1,9 +1,12 @@
+#include <cstddef>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/files/checkpoint.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
+#include <octetra/distributed/levels.hpp>
 #include <octetra/quality/mesh_statistics.hpp>
 
 #include "commands/commands.hpp"
@@ -17,6 +20,27 @@ struct InfoOptions {
     InputOptions input;
     bool json = false;
 };
+
+void show_mesh(const InfoOptions& options) {
+    const Mesh mesh = read_input(options.input);
+    const quality::MeshStatistics statistics = quality::measure(mesh);
+    if (options.json) return print_json(statistics, nullptr, mesh.group_names);
+    print_table(statistics, mesh.group_names);
+}
+
+void show_checkpoint(const InfoOptions& options) {
+    History history{.facts = read_checkpoint_facts(options.input.path), .levels = {}};
+    const auto state =
+        distributed::AdaptiveMesh::load(distributed::Communicator(), options.input.path);
+    const distributed::Levels levels = state.levels();
+    for (std::size_t k = 0; k < levels.count(); ++k) {
+        history.levels.push_back({levels.step(k), levels.vertex_count(k)});
+    }
+    const quality::MeshStatistics statistics = quality::measure(state.collect());
+    if (options.json) return print_json(statistics, &history, history.facts.group_names);
+    print_table(statistics, history.facts.group_names);
+    print_history(history);
+}
 
 }  // namespace
 
@@ -32,16 +56,7 @@ void add_info(CLI::App& program, const distributed::Communicator& world) {
         "  octetra info cube.1.ele --json");
     command->callback([options, world] {
         world.on_first([&] {
-            const Mesh mesh = read_input(options->input);
-            const quality::MeshStatistics statistics = quality::measure(mesh);
-            if (!is_checkpoint(options->input.path)) {
-                return options->json ? print_json(statistics, nullptr, mesh.group_names)
-                                     : print_table(statistics, mesh.group_names);
-            }
-            const CheckpointFacts facts = read_checkpoint_facts(options->input.path);
-            if (options->json) return print_json(statistics, &facts, mesh.group_names);
-            print_table(statistics, mesh.group_names);
-            print_history(facts);
+            is_checkpoint(options->input.path) ? show_checkpoint(*options) : show_mesh(*options);
         });
     });
 }

@@ -8,7 +8,8 @@
 
 namespace octetra::cli {
 
-void print_history(const CheckpointFacts& facts) {
+void print_history(const History& history) {
+    const CheckpointFacts& facts = history.facts;
     print("\n{:<12}{:>17}{:>17}{:>17}{:>15}\n", "Step", "cells before", "cells cut", "cells after",
           "bytes");
     for (std::size_t t = 0; t < facts.steps.size(); ++t) {
@@ -20,6 +21,11 @@ void print_history(const CheckpointFacts& facts) {
     }
     if (facts.closure == Closure::regular) {
         print("closure: regular; a step is a generation of cells\n");
+    }
+    print("\n{:<12}{:>17}{:>17}\n", "Level", "after step", "vertices");
+    for (std::size_t k = 0; k < history.levels.size(); ++k) {
+        const LevelFacts& level = history.levels[k];
+        print("  {:<10}{:>17}{:>17}\n", k, level.step, grouped(level.vertices));
     }
     for (const FieldFacts& field : facts.fields) {
         print(

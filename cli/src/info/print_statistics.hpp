@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -36,8 +38,20 @@
 ///     adjacency            cells_per_edge, cells_per_vertex, edges_per_vertex, faces_per_edge
 ///                          (means), max_cells_at_edge, max_cells_at_vertex; or null
 ///     history              only for a checkpoint: {steps: [{cells_before, cells_cut, bytes}, ...],
+///                          levels: [{step, vertices}, ...] for multigrid, from the input on,
 ///                          fields: [{name, on: "vertices" or "cells", components}, ...]}
 namespace octetra::cli {
+
+/// A level for multigrid solvers: the mesh after the first steps of the history.
+struct LevelFacts {
+    std::size_t step = 0;  ///< number of those steps
+    std::uint64_t vertices = 0;
+};
+
+struct History {
+    CheckpointFacts facts;
+    std::vector<LevelFacts> levels;
+};
 
 /// Returns lines of at most 80 columns, with numbers of six significant digits.
 [[nodiscard]] std::string format_table(const quality::MeshStatistics& statistics,
@@ -45,14 +59,14 @@ namespace octetra::cli {
 
 /// Returns indented JSON with a line end, including the history of a checkpoint.
 [[nodiscard]] std::string format_json(const quality::MeshStatistics& statistics,
-                                      const CheckpointFacts* checkpoint = nullptr,
+                                      const History* history = nullptr,
                                       const std::vector<GroupName>& names = {});
 
 /// As above, to stdout. Throws std::system_error if writing fails.
 void print_table(const quality::MeshStatistics& statistics, const std::vector<GroupName>& names);
-void print_json(const quality::MeshStatistics& statistics, const CheckpointFacts* checkpoint,
+void print_json(const quality::MeshStatistics& statistics, const History* history,
                 const std::vector<GroupName>& names);
-/// Prints the steps and fields of a checkpoint to stdout.
-void print_history(const CheckpointFacts& facts);
+/// Prints the steps, levels and fields of a checkpoint to stdout.
+void print_history(const History& history);
 
 }  // namespace octetra::cli

@@ -48,12 +48,17 @@ Json json(const FeatureCounts& counts) {
     return out;
 }
 
-Json json(const CheckpointFacts& facts) {
+Json json(const History& history) {
+    const CheckpointFacts& facts = history.facts;
     Json steps = Json::array();
     for (const StepFacts& step : facts.steps) {
         steps.push_back({{"cells_before", step.cells_before},
                          {"cells_cut", step.cells_cut},
                          {"bytes", step.bytes}});
+    }
+    Json levels = Json::array();
+    for (const LevelFacts& level : history.levels) {
+        levels.push_back({{"step", level.step}, {"vertices", level.vertices}});
     }
     Json fields = Json::array();
     for (const FieldFacts& field : facts.fields) {
@@ -64,6 +69,7 @@ Json json(const CheckpointFacts& facts) {
     const bool is_regular = facts.closure == Closure::regular;
     Json out{{"steps", std::move(steps)},
              {"closure", is_regular ? "regular" : "longest-edge"},
+             {"levels", std::move(levels)},
              {"fields", std::move(fields)}};
     if (facts.state) {
         out["state"] = {
@@ -105,7 +111,7 @@ Json json(const std::vector<quality::TagTotal>& totals, const char* tag, const c
 
 }  // namespace
 
-std::string format_json(const quality::MeshStatistics& s, const CheckpointFacts* checkpoint,
+std::string format_json(const quality::MeshStatistics& s, const History* history,
                         const std::vector<GroupName>& names) {
     Json out{{"counts", json(s.counts)},
              {"bounding_box", json(s.bounding_box)},
@@ -123,13 +129,13 @@ std::string format_json(const quality::MeshStatistics& s, const CheckpointFacts*
              {"dihedral_histogram", json(s.dihedral_histogram)},
              {"eta_histogram", json(s.eta_histogram)},
              {"adjacency", json(s.adjacency)}};
-    if (checkpoint != nullptr) out["history"] = json(*checkpoint);
+    if (history != nullptr) out["history"] = json(*history);
     return out.dump(2) + "\n";
 }
 
-void print_json(const quality::MeshStatistics& statistics, const CheckpointFacts* checkpoint,
+void print_json(const quality::MeshStatistics& statistics, const History* history,
                 const std::vector<GroupName>& names) {
-    print_text(format_json(statistics, checkpoint, names));
+    print_text(format_json(statistics, history, names));
 }
 
 }  // namespace octetra::cli

@@ -18,5 +18,6 @@ check_version()
 
 from ._functions import carry, function, parents, vertex_values  # noqa: E402
 from ._handover import NONE, Handover, from_mesh, to_mesh  # noqa: E402
+from ._levels import interpolations  # noqa: E402
 
-__all__ = ["NONE", "Handover", "carry", "from_mesh", "function", "parents", "to_mesh", "vertex_values"]
+__all__ = ["NONE", "Handover", "carry", "from_mesh", "function", "interpolations", "parents", "to_mesh", "vertex_values"]

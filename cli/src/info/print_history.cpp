@@ -19,13 +19,13 @@ void print_history(const History& history) {
         print("  {:<10}{:>17}{:>17}{:>17}{:>15}\n", t + 1, grouped(step.cells_before),
               grouped(step.cells_cut), grouped(after), grouped(step.bytes));
     }
-    if (facts.closure == Closure::regular) {
-        print("closure: regular; a step is a generation of cells\n");
-    }
     print("\n{:<12}{:>17}{:>17}\n", "Level", "after step", "vertices");
     for (std::size_t k = 0; k < history.levels.size(); ++k) {
         const LevelFacts& level = history.levels[k];
         print("  {:<10}{:>17}{:>17}\n", k, level.step, grouped(level.vertices));
+    }
+    if (facts.closure == Closure::regular) {
+        print("closure: regular; a step is a generation of cells\n");
     }
     for (const FieldFacts& field : facts.fields) {
         print(

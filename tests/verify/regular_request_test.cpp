@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@
 #include <octetra/verify/certify_shapes.hpp>
 #include <octetra/verify/verify.hpp>
 
+#include "measures/rounded_shapes.hpp"
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 #include "verify/together.hpp"
@@ -182,8 +184,8 @@ TEST(RegularRequest, HasTheSchemeOfEightOnly) {
     EXPECT_THROW((void)verify_refinement(mesh, mesh, regular(request)), InputError);
 }
 
-/// The least and the greatest dihedral angle of a cell, in degrees.
-std::array<double, 2> extreme_angles(const Mesh& mesh, const CellVertices& cell) {
+/// The dihedral angle of a cell at its edge k, in degrees.
+double dihedral_angle(const Mesh& mesh, const CellVertices& cell, std::size_t k) {
     const auto normal = [&](VertexIndex a, VertexIndex b, VertexIndex c) {
         const auto& p = mesh.points;
         const Point u{p[b].x - p[a].x, p[b].y - p[a].y, p[b].z - p[a].z};
@@ -193,17 +195,34 @@ std::array<double, 2> extreme_angles(const Mesh& mesh, const CellVertices& cell)
     const auto dot = [](const Point& u, const Point& v) {
         return u.x * v.x + u.y * v.y + u.z * v.z;
     };
+    const auto [i, j] = cell_edges[k];
+    const auto [m, n] = cell_edges[5 - k];
+    const Point u = normal(cell[i], cell[j], cell[m]);
+    const Point v = normal(cell[i], cell[j], cell[n]);
+    const double cosine = dot(u, v) / std::sqrt(dot(u, u) * dot(v, v));
+    return std::acos(cosine) * 180 / std::numbers::pi;
+}
+
+/// The least and the greatest dihedral angle of a cell, in degrees.
+std::array<double, 2> extreme_angles(const Mesh& mesh, const CellVertices& cell) {
     std::array<double, 2> extremes{180, 0};
     for (std::size_t k = 0; k < 6; ++k) {
-        const auto [i, j] = cell_edges[k];
-        const auto [m, n] = cell_edges[5 - k];
-        const Point u = normal(cell[i], cell[j], cell[m]);
-        const Point v = normal(cell[i], cell[j], cell[n]);
-        const double cosine = dot(u, v) / std::sqrt(dot(u, u) * dot(v, v));
-        const double angle = std::acos(cosine) * 180 / std::numbers::pi;
+        const double angle = dihedral_angle(mesh, cell, k);
         extremes = {std::min(extremes[0], angle), std::max(extremes[1], angle)};
     }
     return extremes;
+}
+
+/// The least solid angle of a cell, in steradians: the angles of faces around a corner less pi.
+double least_solid_angle(const Mesh& mesh, const CellVertices& cell) {
+    std::array<double, 4> around{};
+    for (std::size_t k = 0; k < 6; ++k) {
+        const auto [i, j] = cell_edges[k];
+        const double angle = dihedral_angle(mesh, cell, k);
+        around.at(i) += angle;
+        around.at(j) += angle;
+    }
+    return (std::ranges::min(around) - 180) * std::numbers::pi / 180;
 }
 
 TEST(CertifiedShapes, BoundTheAnglesOfEachRegularlyRefinedCell) {
@@ -218,7 +237,8 @@ TEST(CertifiedShapes, BoundTheAnglesOfEachRegularlyRefinedCell) {
         return check.note;
     };
     for (const Mesh& coarse : coarse_meshes()) {
-        EXPECT_EQ(note_of(coarse), "dihedral angles and eta, exactly");
+        EXPECT_EQ(note_of(coarse),
+                  "dihedral angles and eta, exactly; solid angles, in floating point");
     }
     // Far from the origin, rounding of midpoints changes the angles by more than that of bounds.
     Mesh far = test::kuhn(2, 1, 1, 0.5);
@@ -237,7 +257,7 @@ TEST(CertifiedShapes, AreExceededByLongestEdgeRefinement) {
     }
     const auto [fine, maps] =
         reference::refine(coarse, {.random = RandomShare{0.2, 1}}, Scheme::eight, 3);
-    std::array<std::uint64_t, 4> outside{};  // below alone, above alone, both, eta alone
+    std::array<std::uint64_t, 5> outside{};  // below, above, both, only eta, only solid angles
     constexpr double rounding = 1e-6;
     for (CellIndex c{0}; c < fine.cells.end_index(); ++c) {
         const auto [least, greatest] = extreme_angles(fine, fine.cells[c]);
@@ -249,15 +269,35 @@ TEST(CertifiedShapes, AreExceededByLongestEdgeRefinement) {
             ++outside[is_below && is_above ? 2 : is_above ? 1 : 0];
         } else if (eta < bound.min_eta - rounding) {
             ++outside[3];
+        } else if (least_solid_angle(fine, fine.cells[c]) < bound.min_solid - rounding) {
+            ++outside[4];
         }
     }
     EXPECT_GT(outside[0], 0U);
     EXPECT_GT(outside[1], 0U);
     EXPECT_GT(outside[3], 0U);
+    EXPECT_GT(outside[4], 0U);
     const Verdict verdict = test::verified_by_all(coarse, fine, {.closure = Closure::regular}, {3});
     EXPECT_EQ(verdict.count(Code::shape_beyond_certificate),
-              outside[0] + outside[1] + outside[2] + outside[3]);
+              std::reduce(outside.begin(), outside.end()));
     EXPECT_EQ(check_named(verdict, "certified shapes").status, Status::failed);
+}
+
+/// A solid angle that is certified too large is exceeded, if only by more than rounding explains.
+TEST(CertifiedShapes, HaveALeastSolidAngle) {
+    const std::array<Point, 4> corners{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    // At the other corners, one dihedral angle is 90 degrees, and two have the cosine 1 / sqrt(3).
+    const double least =
+        std::numbers::pi / 2 + 2 * std::acos(1 / std::sqrt(3.0)) - std::numbers::pi;
+    for (const double scale : {1.0, 0x1p-300, 0x1p300}) {
+        Shape<4> shape{.corners = corners};
+        for (Point& p : shape.corners) p = {scale * p.x, scale * p.y, scale * p.z};
+        EXPECT_TRUE(solid_angles_may_reach(least * (1 - 1e-15), shape));
+        EXPECT_FALSE(solid_angles_may_reach(least * (1 + 1e-14), shape));
+        shape.rounding = scale * 0x1p-40;
+        EXPECT_TRUE(solid_angles_may_reach(least * (1 + 0x1p-40), shape));
+        EXPECT_FALSE(solid_angles_may_reach(least * (1 + 0x1p-30), shape));
+    }
 }
 
 }  // namespace

@@ -39,8 +39,9 @@ std::string check_maps(const RefinementMaps& maps, const JudgedMesh& coarse, con
 std::string check_regular_closure(const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines,
                                   const Descent& descent, Findings& findings);
 
-/// Checks that the dihedral angles of each fine cell are within the bounds that are certified for
-/// regular refinement of its coarse cell: exactly, or up to the rounding of midpoints.
+/// Checks that the dihedral angles, eta and solid angles of each fine cell are within the bounds
+/// that are certified for regular refinement of its coarse cell: exactly, except for solid angles,
+/// or up to the rounding of midpoints.
 std::string check_certified_shapes(const JudgedMesh& coarse, const JudgedMesh& fine,
                                    const Descent& descent, Findings& findings);
 

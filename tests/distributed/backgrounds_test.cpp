@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 
 #include "distributed/evaluated_mesh.hpp"
+#include "select/background_cells.hpp"
 #include "support/tagged_meshes.hpp"
 #include "support/thrown.hpp"
 
@@ -78,6 +81,39 @@ TEST_P(Backgrounds, HaveTheValueOfTheClosestPointOutside) {
     // All points of a cube that is much smaller are equally close.
     EXPECT_EQ(count_of(1e-200, "background(b) >= 1 and background(b) <= 4"), 0);
     EXPECT_EQ(count_of(1e200, "abs(background(b) - 1) < 1e-13"), 0);
+}
+
+/// Cells with a common edge or vertex, below z = 0 before a random rotation: the closest point of
+/// both to a point above is on it.
+TEST(BackgroundCells, WithACommonClosestPointAreEquallyClose) {
+    std::mt19937 random(1);
+    const auto draw = [&](double low, double high) {
+        return std::uniform_real_distribution(low, high)(random);
+    };
+    for (int trial = 0; trial < 2000; ++trial) {
+        const double angle = draw(0, 7);
+        const double tilt = draw(0, 7);
+        const auto place = [&](double x, double y, double z) {
+            const double u = x * std::cos(angle) - y * std::sin(angle);
+            const double v = x * std::sin(angle) + y * std::cos(angle);
+            return Point{u, v * std::cos(tilt) - z * std::sin(tilt),
+                         v * std::sin(tilt) + z * std::cos(tilt)};
+        };
+        const bool at_vertex = trial % 2 == 0;
+        const double end = draw(0.5, 1);
+        const auto cell = [&](double value) {
+            BackgroundCell made{.corners = {place(-1, 0, 0), place(end, 0, 0), Point{}, Point{}},
+                                .values = {value, value, value, value}};
+            for (const std::size_t k : {2U, 3U}) {
+                made.corners[k] = place(draw(-1, 0.4), draw(-1, 1), draw(-1, -0.5));
+            }
+            if (at_vertex) made.corners[0] = place(draw(-1, -0.5), draw(-1, 1), draw(-1, -0.5));
+            std::ranges::sort(made.corners);
+            return made;
+        };
+        const Point p = place(at_vertex ? end : draw(-0.9, 0.4), 0, draw(0.1, 1));
+        EXPECT_EQ(closest_value(p, cell(1)).squared, closest_value(p, cell(2)).squared);
+    }
 }
 
 TEST_P(Backgrounds, AreRefusedOnAllProcessesAlike) {

@@ -3,15 +3,15 @@
 # the recorded results. For ./dev campaign platforms, in a checkout; $CXX is the compiler.
 set -euo pipefail
 
-# build NAME FLAGS OPTION...: the program, in build/otherwise/NAME.
+# build NAME TARGET FLAGS OPTION...: in build/otherwise/NAME.
 build() {
-    local folder=build/otherwise/$1 flags=$2
-    shift 2
+    local folder=build/otherwise/$1 target=$2 flags=$3
+    shift 3
     mkdir -p build/otherwise
     cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=$flags" \
         -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=5 -DOCTETRA_TESTS=OFF -DOCTETRA_BENCH=OFF \
         -DOCTETRA_PYTHON_MODULE=OFF -DOCTETRA_DOLFINX=OFF -DOCTETRA_PETSC=OFF "$@"
-    cmake --build "$folder" --parallel "${OCTETRA_JOBS:-2}" --target octetra
+    cmake --build "$folder" --parallel "${OCTETRA_JOBS:-2}" --target "$target"
 }
 
 # check NAME PROGRAM
@@ -26,17 +26,16 @@ check() {
 case ${1-} in
     options)
         for flags in -O1 '-O3 -march=native'; do
-            build options "$flags"
+            build options octetra "$flags"
             check "$flags" build/otherwise/options/cli/octetra
         done
         if [[ ${CXX-} == clang++ ]]; then
-            # The compiled {fmt} takes strings of libstdc++; so do GoogleTest and RapidCheck, so there are no tests.
-            build libc++ '-O3 -stdlib=libc++ -DFMT_HEADER_ONLY'
-            check libc++ build/otherwise/libc++/cli/octetra
+            # Compiled, not linked: Debian's {fmt}, muParser, GoogleTest and RapidCheck take strings of libstdc++.
+            build libc++ octetra_cli '-O3 -stdlib=libc++'
         fi
         ;;
     aarch64)
-        build aarch64 -O3 "-DCMAKE_TOOLCHAIN_FILE=$PWD/tests/platforms/aarch64.cmake"
+        build aarch64 octetra -O3 "-DCMAKE_TOOLCHAIN_FILE=$PWD/tests/platforms/aarch64.cmake"
         printf '#!/bin/sh\nexec qemu-aarch64 %q "$@"\n' "$PWD/build/otherwise/aarch64/cli/octetra" \
             >build/otherwise/emulated
         chmod +x build/otherwise/emulated

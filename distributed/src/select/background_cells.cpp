@@ -1,5 +1,7 @@
 #include "select/background_cells.hpp"
 
+#include <bit>
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -73,6 +75,13 @@ std::array<double, 3> closest_weights(const Point& p, const Triangle& triangle) 
     return {1 - v - w, v, w};
 }
 
+/// Rounds a number of at least 0 to 32 binary digits.
+double rounded(double number) {
+    constexpr std::uint64_t unit = std::uint64_t{1} << 21U;
+    const auto bits = std::bit_cast<std::uint64_t>(number);
+    return std::bit_cast<double>((bits + unit / 2) & ~(unit - 1));
+}
+
 ClosestValue closest_of_triangle(const Point& p, const Triangle& triangle,
                                  const std::array<double, 3>& values) {
     const auto weights = closest_weights(p, triangle);
@@ -83,7 +92,7 @@ ClosestValue closest_of_triangle(const Point& p, const Triangle& triangle,
     const auto& [u, v, w] = weights;
     const Vector rest{ap.x - v * ab.x - w * ac.x, ap.y - v * ab.y - w * ac.y,
                       ap.z - v * ab.z - w * ac.z};
-    return {inner(rest, rest), interpolated(values, weights)};
+    return {rounded(inner(rest, rest)), interpolated(values, weights)};
 }
 
 bool is_in_box(const Point& p, const Box& box) {

@@ -21,6 +21,7 @@ struct BackgroundCell {
 /// The closest point of a background mesh: the squared distance to it, and its value. Of equally
 /// close ones, the one with the least value is the closest.
 struct ClosestValue {
+    /// Rounded to 32 binary digits: cells with a common closest point have the same distance.
     double squared = std::numeric_limits<double>::infinity();
     double value = std::numeric_limits<double>::infinity();
 
@@ -52,6 +53,6 @@ private:
 };
 
 /// Returns a squared distance that is slightly greater than `squared`, whatever its rounding.
-[[nodiscard]] constexpr double slightly_more(double squared) { return squared * (1 + 0x1p-40); }
+[[nodiscard]] constexpr double slightly_more(double squared) { return squared * (1 + 0x1p-30); }
 
 }  // namespace octetra::distributed

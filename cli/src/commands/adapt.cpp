@@ -52,10 +52,12 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
     command->add_flag("--quiet", options->adaptation.quiet, "print only notes and errors");
     command->footer(
         "Steps, with the options of the subcommands of these names; # begins a comment:\n"
-        "  refine CRITERION... [--levels L] [--scheme 8t|4t|2t] [--closure C]\n"
+        "  refine CRITERION... [--levels L] [--target-cells N] [--scheme 8t|4t|2t] [--closure C]\n"
         "  coarsen CRITERION... [--outside] [--levels L]   undo refinement, by one step per "
         "level,\n"
         "                                                  in these cells, or outside them\n"
+        "  fit --size SIZE [--gradation R] [--levels L]    refine and coarsen to a target size; also\n"
+        "                                                  --scheme and --closure\n"
         "  rebalance                                       under mpirun: balance the cells of "
         "ranks;\n"
         "                                                  changes no file\n"

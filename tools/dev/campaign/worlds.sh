@@ -3,11 +3,13 @@
 source "$root/tools/dev/common.sh"
 source "$root/tools/dev/laws.sh"
 
-readonly world_parts=263
+readonly world_parts=269
+readonly regular_worlds=(OfOneCell OfTwoCellsAtAFaceForEvery OfTwoCellsAtAFaceInEvery OfTwoCellsAtAnEdgeForEvery
+                         OfTwoCellsAtAnEdgeInEvery OfThreeCellsInARowForEvery OfThreeCellsInARowInEvery)
 # worlds_of_part N: in parts 1 to 180 the first cell has the order of its edges with that number;
 # parts 181 to 205 are the complexes by classes of orders; parts 206 to 261 are divisions of the
 # complexes with few enough orders to test all, and part 206 also counts these. Part 262 refines and
-# coarsens, part 263 refines with the regular closure.
+# coarsens, parts 263 to 269 refine with the regular closure.
 worlds_of_part() {
     local filter='SmallWorlds.OfTwoCellsAtAnEdge*:SmallWorlds.OfThreeCellsInARow*'
     if (($1 <= 180)); then
@@ -18,9 +20,9 @@ worlds_of_part() {
     elif (($1 == 262)); then
         export OCTETRA_COARSENED_WORLDS=1
         filter='CoarsenedWorlds.*'
-    elif (($1 == 263)); then
+    elif (($1 >= 263)); then
         export OCTETRA_ALL_REGULAR_WORLDS=1
-        filter='RegularWorlds.*'
+        filter="RegularWorlds.${regular_worlds[$1 - 263]}*"
     else
         export OCTETRA_PART_UP_TO_EXCHANGE=$(($1 - 205))
         filter='SmallWorlds.OfEightMoreComplexes*'

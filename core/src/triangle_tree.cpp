@@ -84,6 +84,27 @@ double Point::*longest_axis(const Box& box) {
     return size.y >= size.z ? &Point::y : &Point::z;
 }
 
+Slab::Slab(std::span<const Triangle> triangles) : origin_(triangles[0][0]) {
+    Point sum{0, 0, 0};
+    for (const auto& [a, b, c] : triangles) {
+        const Point n = cross_of(minus(b, a), minus(c, a));
+        const double sign = dot_of(n, sum) < 0 ? -1 : 1;  // the corners have no common order
+        sum = {sum.x + sign * n.x, sum.y + sign * n.y, sum.z + sign * n.z};
+    }
+    // The square of a tiny sum may be rounded so much that the length is not near 1.
+    const double square = dot_of(sum, sum);
+    if (!(square > 0x1p-900)) return;
+    const double length = std::sqrt(square);
+    normal_ = {sum.x / length, sum.y / length, sum.z / length};
+    for (const Triangle& triangle : triangles) {
+        for (const Point& p : triangle) {
+            const double height = dot_of(normal_, minus(p, origin_));
+            low_ = std::min(low_, height);
+            high_ = std::max(high_, height);
+        }
+    }
+}
+
 TriangleTree::TriangleTree(std::vector<Triangle> triangles)
     : tree_(with_sorted_corners(std::move(triangles))) {}
 

@@ -113,6 +113,93 @@ TEST(TriangleTree, FindsTheLeastDistanceBitByBit) {
     }
 }
 
+/// The triangles of a sphere around the origin, of about the same size.
+std::vector<Triangle> sphere_of_triangles(double radius, int divisions) {
+    const auto on_sphere = [&](double x, double y, double z) {
+        const double length = std::hypot(x, y, z);
+        return Point{radius * x / length, radius * y / length, radius * z / length};
+    };
+    std::vector<Triangle> triangles;
+    const auto corner = [&](int face, int i, int j) {
+        const double u = std::tan((2.0 * i / divisions - 1) * 0.785);
+        const double v = std::tan((2.0 * j / divisions - 1) * 0.785);
+        const double side = face % 2 == 0 ? 1 : -1;
+        if (face / 2 == 0) return on_sphere(side, u, v);
+        return face / 2 == 1 ? on_sphere(u, side, v) : on_sphere(u, v, side);
+    };
+    for (int face = 0; face < 6; ++face) {
+        for (int i = 0; i < divisions; ++i) {
+            for (int j = 0; j < divisions; ++j) {
+                const Point a = corner(face, i, j);
+                const Point b = corner(face, i + 1, j + 1);
+                triangles.push_back({a, corner(face, i + 1, j), b});
+                triangles.push_back({b, a, corner(face, i, j + 1)});
+            }
+        }
+    }
+    return triangles;
+}
+
+/// A point whose distance from the origin is about `size`.
+Point point_near_origin(Draw& draw, double size) {
+    const Point p = draw.point();
+    return {size * p.x, size * p.y, size * p.z};
+}
+
+TEST(TriangleTree, FindsTheLeastOfNearlyEqualDistancesBitByBit) {
+    Draw draw(5);
+    for (const double radius : {0.4, 1e-9, 1e-76, 1e-80, 1e-160, 1e-310}) {
+        std::vector<Triangle> triangles = sphere_of_triangles(radius, 8);
+        const TriangleTree tree(triangles);
+        for (Triangle& t : triangles) std::ranges::sort(t);
+        for (int i = 0; i < 200; ++i) {
+            const Point p = i % 2 == 0 ? draw.point() : point_near_origin(draw, radius / 4);
+            double least = infinity;
+            for (const Triangle& t : triangles) least = std::min(least, squared_distance(p, t));
+            EXPECT_EQ(tree.least_squared_distance(p), least) << radius;
+        }
+    }
+}
+
+TEST(TriangleTree, FindsTinyTrianglesThatAreALittleCloserThanOthers) {
+    const Triangle large{Point{-0.5, -0.5, 0.5}, Point{1, -0.5, 0.5}, Point{0.25, 0.5, 0.5}};
+    const Point p{0, 0, 0.249};
+    for (double size = 1e-75; size > 1e-85; size *= 0.7) {  // the squares of areas are denormal
+        std::vector<Triangle> triangles(8, large);
+        const Triangle tiny{Point{0, 0, 0}, Point{size, 0, 0}, Point{0, size, 0}};
+        triangles.insert(triangles.end(), 8, tiny);
+        EXPECT_EQ(TriangleTree(triangles).least_squared_distance(p), squared_distance(p, tiny))
+            << size;
+    }
+}
+
+TEST(TriangleTree, TestsFewOfTheTrianglesThatAreNearlyEquallyClose) {
+    struct BoxOf {
+        Box operator()(const Triangle& t) const {
+            Box box{t[0], t[0]};
+            for (const Point& p : t) extend_by(box, {p, p});
+            return box;
+        }
+    };
+    const std::vector<Triangle> triangles = sphere_of_triangles(0.4, 40);
+    const auto tests_of = [](const auto& tree) {
+        Draw draw(6);
+        std::size_t tests = 0;
+        for (int i = 0; i < 200; ++i) {
+            const Point p = point_near_origin(draw, 0.2);
+            double limit = infinity;
+            tree.visit_near(p, limit, [&](const Triangle& t) {
+                limit = std::min(limit, limit_of_boxes(squared_distance(p, t)));
+                ++tests;
+            });
+        }
+        return tests;
+    };
+    const BoxTree<Triangle, BoxOf> of_boxes(triangles);
+    const BoxTree<Triangle, BoxOf, Slab> of_slabs(triangles);
+    EXPECT_LT(20 * tests_of(of_slabs), tests_of(of_boxes));
+}
+
 TEST(TriangleTree, HasBoxesAroundAllTriangles) {
     Draw draw(4);
     for (const std::size_t count : std::initializer_list<std::size_t>{0, 1, 5, 40, 1000}) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -21,8 +22,16 @@ void extend_by(Box& box, const Box& other);
 /// Returns the coordinate in which a box is longest.
 [[nodiscard]] double Point::*longest_axis(const Box& box);
 
-/// A tree of the bounding boxes of items, which BoxOf()(item) returns.
-template <class Item, class BoxOf>
+/// Adds nothing to the boxes of a tree.
+struct NoBound {
+    template <class Item>
+    explicit NoBound(std::span<const Item> /*items*/) {}
+    [[nodiscard]] double least_squared_distance(const Point& /*p*/) const { return 0; }
+};
+
+/// A tree of the bounding boxes of items, which BoxOf()(item) returns. A Bound, made of a span of
+/// items, is another lower bound of the distance to them.
+template <class Item, class BoxOf, class Bound = NoBound>
 class BoxTree {
 public:
     explicit BoxTree(std::vector<Item> items) : items_(std::move(items)) {
@@ -54,17 +63,23 @@ public:
         return boxes;
     }
 
-    /// Calls visit(item) for items in ascending distance of their boxes, approximately, and for all
-    /// in boxes whose squared distance from p is at most `limit`, which visit() may lower.
+    /// Calls visit(item) for items in ascending order of the lower bounds of their distances,
+    /// approximately, and for all whose bound, squared, is at most `limit`, which visit() may
+    /// lower.
     void visit_near(const Point& p, const double& limit, auto&& visit) const {
         if (nodes_.empty()) return;
         struct Waiting {
             std::uint32_t node;
             double squared;
         };
+        const auto waiting = [&](std::uint32_t number) {
+            const auto& [box, bound, begin, end, right] = nodes_[number];
+            return Waiting{number, std::max(octetra::least_squared_distance(p, box),
+                                            bound.least_squared_distance(p))};
+        };
         std::array<Waiting, 80> stack{};  // two for each level of the tree
         std::size_t size = 0;
-        stack[size++] = {0, least_squared_distance(p, nodes_[0].box)};
+        stack[size++] = waiting(0);
         while (size > 0) {
             const auto [number, squared] = stack[--size];
             if (squared > limit) continue;
@@ -73,8 +88,8 @@ public:
                 for (std::uint32_t i = node.begin; i < node.end; ++i) visit(items_[i]);
                 continue;
             }
-            Waiting near{number + 1, least_squared_distance(p, nodes_[number + 1].box)};
-            Waiting far{node.right, least_squared_distance(p, nodes_[node.right].box)};
+            Waiting near = waiting(number + 1);
+            Waiting far = waiting(node.right);
             if (far.squared < near.squared) std::swap(near, far);
             stack[size++] = far;
             stack[size++] = near;
@@ -82,10 +97,11 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t leaf_size = 8;
+    static constexpr std::uint32_t leaf_size = 4;
 
     struct Node {
         Box box;
+        Bound bound;
         std::uint32_t begin = 0;  ///< of its items
         std::uint32_t end = 0;
         std::uint32_t right =
@@ -95,7 +111,8 @@ private:
     // The depth is the logarithm of the number of items, as halves are equally large.
     void build(std::uint32_t begin, std::uint32_t end) {
         const std::size_t node = nodes_.size();
-        nodes_.push_back({BoxOf()(items_[begin]), begin, end, 0});
+        const std::span<const Item> items(items_.data() + begin, end - begin);
+        nodes_.push_back({BoxOf()(items_[begin]), Bound(items), begin, end, 0});
         for (std::uint32_t i = begin + 1; i < end; ++i) {
             extend_by(nodes_[node].box, BoxOf()(items_[i]));
         }

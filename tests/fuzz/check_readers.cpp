@@ -101,12 +101,14 @@ bool is_positive(const CellVertices& cell, const Mesh& mesh) {
     return orientation(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]) > 0;
 }
 
-constexpr std::array<NamedCheck, 10> all_checks{{{"tetgen", check_tetgen},
+constexpr std::array<NamedCheck, 12> all_checks{{{"tetgen", check_tetgen},
                                                  {"medit", check_medit},
                                                  {"meshb", check_meshb},
                                                  {"gmsh", check_gmsh},
                                                  {"sol", check_sol},
                                                  {"solb", check_solb},
+                                                 {"gmsh_data", check_gmsh_data},
+                                                 {"expression", check_expression},
                                                  {"maps", check_maps},
                                                  {"cell_list", check_cell_list},
                                                  {"part_file", check_part_file},

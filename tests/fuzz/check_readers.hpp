@@ -31,6 +31,10 @@ void check_gmsh(std::string_view input, const std::filesystem::path& folder);
 /// Reads fields for a mesh of as many vertices and cells as the file claims.
 void check_sol(std::string_view input, const std::filesystem::path& folder);
 void check_solb(std::string_view input, const std::filesystem::path& folder);
+/// Reads the values of a Gmsh file, for the mesh in it.
+void check_gmsh_data(std::string_view input, const std::filesystem::path& folder);
+/// Reads the input as an expression, and evaluates it.
+void check_expression(std::string_view input, const std::filesystem::path& folder);
 void check_maps(std::string_view input, const std::filesystem::path& folder);
 void check_cell_list(std::string_view input, const std::filesystem::path& folder);
 void check_part_file(std::string_view input, const std::filesystem::path& folder);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/files/sol_files.hpp>
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/core/sol_fields.hpp>
@@ -100,6 +102,16 @@ void check_values(const fs::path& path) {
     }
 }
 
+/// The numbers of entities of the mesh in the file, or those of a small mesh if there is none.
+EntityCounts counts_of_mesh(const fs::path& path) {
+    try {
+        const Mesh mesh = read_mesh(path);
+        return {mesh.points.size(), mesh.cells.size()};
+    } catch (const InputError&) {
+        return {5, 2};
+    }
+}
+
 }  // namespace
 
 void check_sol(std::string_view input, const fs::path& folder) {
@@ -110,6 +122,26 @@ void check_sol(std::string_view input, const fs::path& folder) {
 void check_solb(std::string_view input, const fs::path& folder) {
     write_file(folder / "in.solb", input);
     check_values(folder / "in.solb");
+}
+
+void check_gmsh_data(std::string_view input, const fs::path& folder) {
+    const fs::path path = folder / "in.msh";
+    write_file(path, input);
+    const EntityCounts counts = counts_of_mesh(path);
+    try {
+        for (const FieldRows& list : read_msh_data(path, counts).lists) {
+            const bool on_vertices = list.on == FieldOn::vertices;
+            if (list.count != (on_vertices ? counts.vertices : counts.cells) ||
+                list.values.size() != list.count * list.width()) {
+                throw BrokenPromise("a list is of another length than what it belongs to");
+            }
+            if (!std::ranges::all_of(list.values, [](double x) { return std::isfinite(x); })) {
+                throw BrokenPromise("a value is not finite");
+            }
+        }
+    } catch (const InputError& error) {
+        check_message(error.what(), folder);
+    }
 }
 
 }  // namespace octetra::test

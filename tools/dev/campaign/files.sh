@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-readers=(tetgen medit meshb gmsh sol solb maps cell_list part_file checkpoint)
+readers=(tetgen medit meshb gmsh sol solb gmsh_data expression maps cell_list part_file checkpoint)
 
 # Copies seed files for the readers, in the form that the fuzzers take, to build/fuzz/corpus/NAME/;
 # files found by earlier runs remain there.
@@ -75,7 +75,7 @@ put_seeds
 if [[ -d /dev/shm && -w /dev/shm ]]; then export TMPDIR=/dev/shm; fi
 say "seed $seed"
 for reader in "${readers[@]}"; do
-    seconds=$((minutes * 60 / 12))
+    seconds=$((minutes * 60 / 14))
     case $reader in tetgen | medit) seconds=$((minutes * 60 * 3 / 8)) ;; esac
     step "fuzz $reader" fuzz_reader "$reader" "$seconds" "$seed" || found=1
 done

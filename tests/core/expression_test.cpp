@@ -86,13 +86,20 @@ TEST(Expression, IsRefusedAtTheColumnOfTheError) {
     EXPECT_EQ(refused("x <"),
               "column 4: a number or variable is missing at the end\n  x <\n     ^");
     const std::vector<std::array<std::string, 2>> cases{
-        {"", "column 1: a number or variable is missing at the end"},
         {"lenght > 1", "column 1: there is no variable lenght; there are x, y, z, volume"},
         {"x > wall(1)", "column 5: there is no function wall; there are distance, background"},
         {"x(1) > 2", "column 1: there is no function x;"},
         {"sqrt > 2", "column 1: sqrt takes arguments in parentheses"},
         {"x = 1", "column 3: = assigns; a comparison for equality is =="},
         {"!x", "column 1: the word for ! is not"},
+        {"x =< 1", "column 3: write <= in place of =<"},
+        {"x => 1", "column 3: write >= in place of =>"},
+        {"x <> 1", "column 3: write != in place of <>"},
+        {"x ** 2 > 1", "column 3: write ^ in place of **"},
+        {"x > 1 AND y > 1", "column 7: write and in lower case"},
+        {"x > 1 Or y > 1", "column 7: write or in lower case"},
+        {"NOT x", "column 1: write not in lower case"},
+        {"NOT (x)", "column 1: write not in lower case"},
         {"x ? 1 : 0", "column 3: the character ? has no meaning here"},
         {"0 < x < 1", "column 7: comparisons cannot be chained"},
         {"x + not y", "column 5: not applies to a comparison"},
@@ -121,6 +128,11 @@ TEST(Expression, IsRefusedAtTheColumnOfTheError) {
     for (const auto& [text, message] : cases) {
         EXPECT_THAT(refused(text), testing::StartsWith(message)) << text;
     }
+    EXPECT_THAT(refused("sol_1 > 0.5"),
+                testing::HasSubstr("generation, boundary, and field(sol_1) for a field of this"));
+    EXPECT_EQ(refused(""), "the expression is empty");
+    EXPECT_EQ(refused(" \t"), "the expression is empty");
+    EXPECT_EQ(Expression("field(AND) > distance(NOT)").terms().size(), 2U);
     EXPECT_EQ(refused("x\n< 1"), "there is a control character in the expression");
 }
 

@@ -63,6 +63,11 @@ std::string sizes_before(std::uint64_t vertices, std::uint64_t cells) {
 }
 
 std::string with_level(std::string_view what, int level, int levels) {
+    constexpr std::string_view word = "level ";
+    const std::size_t named = what.find(word);
+    const bool is_numbered = named != std::string_view::npos &&
+                             what.find_first_of("0123456789", named) == named + word.size();
+    if (!is_numbered) return std::string(what);
     return fmt::format(
         "{} (levels count all steps that have made this mesh; this is level {} of {} here)", what,
         level, levels);

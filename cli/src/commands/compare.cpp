@@ -13,6 +13,7 @@
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
 #include "negative_answer.hpp"
+#include "terminal.hpp"
 #include "verdict/print_verdict.hpp"
 
 namespace octetra::cli {
@@ -32,6 +33,10 @@ bool run(const CompareOptions& options) {
                                 ? verify::compare_within(*options.tolerance, a, std::move(b))
                                 : verify::compare(a, b);
     print_comparison(comparison, options.a, options.b);
+    if (options.tolerance && comparison.difference_count > 0) {
+        print("if the differences are due to rounding, --tolerance must be above {:.3g}\n",
+              *options.tolerance);
+    }
     return comparison.likeness == verify::Likeness::identical ||
            (!options.identical && comparison.likeness == verify::Likeness::up_to_numbering);
 }

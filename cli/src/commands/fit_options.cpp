@@ -12,7 +12,8 @@ namespace octetra::cli {
 void add_fitting_options(CLI::App& subcommand, RefinementOptions& options,
                          const std::string& group) {
     options.levels = 50;
-    add_size_option(subcommand, options.selection, group);
+    add_size_option(subcommand, options.selection, group,
+                    "the length that the longest edge of a cell is to have");
     add_number<std::uint64_t>(subcommand, "--levels", options.levels, {0, 50, "0 to 50"},
                               "the most levels of refinement in a sequence, and of coarsening [50]")
         ->type_name("L")

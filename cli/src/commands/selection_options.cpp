@@ -137,7 +137,7 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         ->type_name("EXPRESSION")
         ->allow_extra_args(false)
         ->group(group);
-    add_size_option(subcommand, options, group);
+    add_size_option(subcommand, options, group, "cells with an edge longer than this size");
     for (const Abbreviation& abbreviation : abbreviations()) {
         const std::string name(abbreviation.option);
         subcommand

@@ -17,14 +17,16 @@
 
 namespace octetra::cli {
 
-void add_size_option(CLI::App& subcommand, SelectionOptions& options, const std::string& group) {
+void add_size_option(CLI::App& subcommand, SelectionOptions& options, const std::string& group,
+                     const std::string& meaning) {
     subcommand
         .add_option(
             "--size", options.sizes,
-            "cells with an edge longer than this size: a number, an expression such as\n"
-            "\"0.02 + distance(wall) / 4\", or a file: .sol or .solb with sizes or metrics on\n"
-            "the vertices or cells of MESH; another mesh with sizes, .mesh or .meshb with a\n"
-            ".sol or .solb beside it, .msh with $NodeData or $ElementData, or .octetra")
+            meaning +
+                ": a number, an expression such as\n"
+                "\"0.02 + distance(wall) / 4\", or a file: .sol or .solb with sizes or metrics on\n"
+                "the vertices or cells of MESH; another mesh with sizes, .mesh or .meshb with a\n"
+                ".sol or .solb beside it, .msh with $NodeData or $ElementData, or .octetra")
         ->type_name("SIZE")
         ->allow_extra_args(false)
         ->group(group);

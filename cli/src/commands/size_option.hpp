@@ -10,8 +10,10 @@
 /// The option --size: a target size, the length that no edge of a cell is to exceed.
 namespace octetra::cli {
 
-/// Declares --size and --gradation under the heading `group` of the help.
-void add_size_option(CLI::App& subcommand, SelectionOptions& options, const std::string& group);
+/// Declares --size and --gradation under the heading `group` of the help, which describes --size by
+/// `meaning`.
+void add_size_option(CLI::App& subcommand, SelectionOptions& options, const std::string& group,
+                     const std::string& meaning);
 
 /// Returns whether a value of --size is the name of a file rather than an expression, by its
 /// extension: a file of values of MESH (.sol, .solb), or a background mesh (.mesh, .meshb with a

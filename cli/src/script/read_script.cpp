@@ -28,11 +28,26 @@ std::vector<TextLine> raw_lines(std::istream& in) {
     return lines;
 }
 
-/// Removes comments as read_lines() does.
+/// Returns the place of the # that begins a comment, or npos. In quotation marks it begins none.
+std::size_t comment_in(std::string_view line) {
+    char quotation_mark = 0;
+    for (std::size_t at = 0; at < line.size(); ++at) {
+        const char c = line[at];
+        if (quotation_mark != 0) {
+            if (c == quotation_mark) quotation_mark = 0;
+        } else if (c == '"' || c == '\'') {
+            quotation_mark = c;
+        } else if (c == '#') {
+            return at;
+        }
+    }
+    return std::string_view::npos;
+}
+
 std::vector<TextLine> without_comments(std::vector<TextLine> lines) {
     constexpr std::string_view blanks = " \t\r";
     for (TextLine& line : lines) {
-        line.text.erase(std::min(line.text.find('#'), line.text.size()));
+        line.text.erase(std::min(comment_in(line.text), line.text.size()));
         line.text.erase(line.text.find_last_not_of(blanks) + 1);
         line.text.erase(0, line.text.find_first_not_of(blanks));
     }
@@ -47,7 +62,7 @@ std::vector<TextLine> lines_in(const std::filesystem::path& path) {
     const auto type = std::filesystem::status(path, error).type();
     using Type = std::filesystem::file_type;
     if (type != Type::fifo && type != Type::character && type != Type::socket) {
-        return read_lines(path);
+        return without_comments(read_lines(path));
     }
     std::ifstream in(path);
     return without_comments(raw_lines(in));
@@ -88,7 +103,7 @@ std::string hint_of_comment(const std::filesystem::path& path, std::uint64_t num
     if (!std::filesystem::is_regular_file(path)) return {};
     std::ifstream in(path);
     for (const auto& [at, text] : raw_lines(in)) {
-        const auto comment = text.find('#');
+        const auto comment = comment_in(text);
         if (at != number || comment == 0 || comment == std::string::npos) continue;
         if (text[comment - 1] == ' ' || text[comment - 1] == '\t') return {};
         return "; # begins a comment, also within a word";

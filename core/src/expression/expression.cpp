@@ -74,6 +74,16 @@ std::string known_names(bool of_functions) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// Returns a hint for a word that is `and`, `or` or `not` but for upper case, otherwise nothing.
+std::string hint_of_word(std::string_view word) {
+    std::string lower(word);
+    for (char& c : lower) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    const bool is_operator = lower == "and" || lower == "or" || lower == "not";
+    return is_operator ? fmt::format("write {} in lower case", lower) : "";
+}
+
 /// A pair of parentheses that is open.
 struct Nesting {
     std::size_t begin;         ///< of the parenthesis
@@ -180,15 +190,23 @@ private:
                                                           : take_quantity(quantity->quantity);
         }
         const auto* const function = std::ranges::find(functions, token.text, &Function::name);
-        if (function == functions.end()) {
-            refuse_here(fmt::format("there is no {} {}; there are {}",
-                                    is_call ? "function" : "variable", token.text,
-                                    known_names(is_call)));
-        }
+        if (function == functions.end()) refuse_name(token.text, is_call);
         if (!is_call) refuse_here(fmt::format("{} takes arguments in parentheses", token.text));
         translated += function->name;  // muParser expects the parenthesis right behind it
         ++at_;
         open(function);
+    }
+
+    [[noreturn]] void refuse_name(const std::string& name, bool is_call) const {
+        if (const std::string hint = hint_of_word(name); !hint.empty()) refuse_here(hint);
+        if (is_call) {
+            refuse_here(
+                fmt::format("there is no function {}; there are {}", name, known_names(true)));
+        }
+        refuse_here(
+            fmt::format("there is no variable {0}; there are {1}, and field({0}) for a "
+                        "field of this name",
+                        name, known_names(false)));
     }
 
     /// Takes NAME(ARGUMENT) or NAME(ARGUMENT, SHARE).
@@ -290,7 +308,10 @@ private:
                 nesting.has_comparison = false;
                 break;
             case TokenKind::close: return close();
-            default: refuse_here("an operator is missing before this");
+            default: {
+                const std::string hint = hint_of_word(token.text);
+                refuse_here(hint.empty() ? "an operator is missing before this" : hint);
+            }
         }
         put(token.text);
         ++at_;
@@ -346,6 +367,9 @@ Expression::Expression(std::string_view text) : text_(text) {
     };
     if (std::ranges::any_of(text, is_control)) {
         throw InputError("there is a control character in the expression");
+    }
+    if (text.find_first_not_of(" \t") == std::string_view::npos) {
+        throw InputError("the expression is empty");
     }
     Translation translation(text, expression::tokens_of(text));
     translation.run();

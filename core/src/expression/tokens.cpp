@@ -43,6 +43,17 @@ constexpr std::array<Symbol, 16> symbols{{{"<=", TokenKind::comparison},
                                           {")", TokenKind::close},
                                           {",", TokenKind::comma}}};
 
+struct Hint {
+    std::string_view text;
+    std::string_view what;
+};
+
+/// Operators of other languages, as they are written here.
+constexpr std::array<Hint, 4> foreign_symbols{{{"=<", "write <= in place of =<"},
+                                               {"=>", "write >= in place of =>"},
+                                               {"<>", "write != in place of <>"},
+                                               {"**", "write ^ in place of **"}}};
+
 class Scanner {
 public:
     explicit Scanner(std::string_view text) : text_(text) {}
@@ -97,6 +108,9 @@ private:
 
     Token symbol() {
         const std::string_view rest = text_.substr(at_);
+        for (const auto& [foreign, what] : foreign_symbols) {
+            if (rest.starts_with(foreign)) refuse(text_, at_, what);
+        }
         const auto* const found = std::ranges::find_if(
             symbols, [&](const Symbol& s) { return rest.starts_with(s.text); });
         if (found != symbols.end()) {

@@ -34,7 +34,7 @@ std::vector<GlobalCell> read_cell_list(const std::filesystem::path& path, std::u
 std::vector<TextLine> read_lines(const std::filesystem::path& path) {
     LineReader reader(path);
     std::vector<TextLine> lines;
-    while (reader.next()) lines.push_back({reader.line_number(), std::string(reader.line())});
+    while (reader.next()) lines.push_back({reader.line_number(), std::string(reader.full_line())});
     return lines;
 }
 

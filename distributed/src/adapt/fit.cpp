@@ -1,7 +1,6 @@
 #include <octetra/distributed/fit.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/step_options.hpp"
+#include "numbering/lowest_fault.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -21,32 +21,16 @@ bool is_size(double size) { return size > 0; }
 
 /// Collective, within a transaction. Throws InputError for the invalid size of the cell with the
 /// lowest number of all.
-[[noreturn]] void refuse_size(const AdaptiveMesh& mesh, std::span<const double> sizes) {
-    const Communicator& processes = mesh.processes();
-    constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
-    const std::vector<std::uint64_t> numbers = mesh.cell_numbers();
-    std::uint64_t lowest = none;
-    double size = 0;
-    for (std::size_t c = 0; c < sizes.size(); ++c) {
-        if (is_size(sizes[c]) || numbers[c] > lowest) continue;
-        lowest = numbers[c];
-        size = sizes[c];
-    }
-    const std::uint64_t cell = none - processes.max(none - lowest);
-    const auto rank = static_cast<std::uint64_t>(processes.rank());
-    const auto owner = static_cast<int>(processes.max(cell == lowest ? rank : 0));
-    throw InputError(fmt::format("the target size of cell {} is {}, not a number above 0",
-                                 cell + mesh.index_base(), processes.of_rank(owner, size)));
-}
-
-/// Collective, within a transaction.
 void check_sizes(const AdaptiveMesh& mesh, std::span<const double> sizes) {
     if (sizes.size() != mesh.cells().size()) {
         throw InputError(
             fmt::format("{} target sizes for {} cells", sizes.size(), mesh.cells().size()));
     }
-    const bool are_valid = std::ranges::all_of(sizes, is_size);
-    if (mesh.processes().max(are_valid ? 0 : 1) != 0) refuse_size(mesh, sizes);
+    const auto fault =
+        lowest_fault(mesh.processes(), sizes, is_size, [&] { return mesh.cell_numbers(); });
+    if (!fault) return;
+    throw InputError(fmt::format("the target size of cell {} is {}, not a number above 0",
+                                 fault->number + mesh.index_base(), fault->value));
 }
 
 /// Collective. Returns the longest edge of each cell of this process.

@@ -7,11 +7,16 @@
 #include <string>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include <octetra/core/cell_quantities.hpp>
+#include <octetra/core/error.hpp>
 #include <octetra/core/mean_of_four.hpp>
 #include <octetra/distributed/estimator_marks.hpp>
 #include <octetra/distributed/exchange.hpp>
 
+#include "numbering/cell_numbers.hpp"
+#include "numbering/lowest_fault.hpp"
 #include "select/size_values.hpp"
 
 namespace octetra::distributed {
@@ -52,6 +57,20 @@ std::vector<double> maxima_of(const DistributedMesh& mesh, const std::vector<dou
     return of_cell;
 }
 
+/// Collective. Throws InputError for the invalid indicator of the cell with the lowest number of
+/// all.
+void check_indicators(const DistributedMesh& mesh, const Term& term,
+                      std::span<const double> indicators) {
+    const auto is_indicator = [](double x) { return x >= 0 && std::isfinite(x); };
+    const auto fault =
+        lowest_fault(mesh.processes, indicators, is_indicator, [&] { return cell_numbers(mesh); });
+    if (!fault) return;
+    throw InputError(
+        fmt::format("{}: the indicator of cell {} is {}, not a finite number of at "
+                    "least 0",
+                    text_of(term), fault->number + mesh.index_base, fault->value));
+}
+
 }  // namespace
 
 const Field& find_field(const Term& term, std::span<const Field> fields) {
@@ -88,6 +107,7 @@ std::vector<double> field_values(const DistributedMesh& mesh, const Term& term,
             term.quantity == Quantity::field_max ? maxima_of(mesh, values) : means_of(mesh, values);
     }
     if (term.quantity == Quantity::field || term.quantity == Quantity::field_max) return values;
+    check_indicators(mesh, term, values);
     const std::vector<std::uint8_t> marks = term.quantity == Quantity::bulk
                                                 ? mark_bulk(mesh.processes, values, term.share)
                                                 : mark_fraction(mesh.processes, values, term.share);

@@ -22,11 +22,12 @@ namespace octetra {
 /// A non-blank line of a text file.
 struct TextLine {
     std::uint64_t number = 0;  ///< counted from 1
-    std::string text;          ///< without comment, line end and surrounding blanks
+    std::string text;          ///< without line end
 };
 
-/// Reads the non-blank lines of a text file. `#` starts a comment; CRLF is also accepted as a line
-/// end. Throws InputError or SystemError.
+/// Reads the lines of a text file that contain more than blanks and a comment, which `#` starts,
+/// and keeps the comments of these. CRLF is also accepted as a line end. Throws InputError or
+/// SystemError.
 [[nodiscard]] std::vector<TextLine> read_lines(const std::filesystem::path& path);
 
 /// Writes numbers as text, one per line. Throws SystemError.

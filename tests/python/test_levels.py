@@ -1,5 +1,8 @@
 """Mesh.levels(): nested meshes and the transfer of values between them."""
 
+import importlib
+import pathlib
+
 import numpy as np
 import pytest
 from conftest import near, total, world
@@ -65,6 +68,16 @@ def test_prolongation_and_its_transpose_agree_with_the_rows(levels):
         sums = total(np.array([(fine.vertex_numbers % 7 * coarse.prolong(u))[own].sum().real,
                                (fine.restrict_residual(r) * u)[mine].sum().real]))
         assert sums[0] == sums[1]
+
+
+def test_quadratic_and_edge_elements_are_the_same_functions_on_the_next_level(levels, monkeypatch):
+    """In the example level_transfer.py."""
+    monkeypatch.syspath_prepend(str(pathlib.Path(__file__).resolve().parents[2] / "examples/python"))
+    example = importlib.import_module("level_transfer")
+    for coarse, fine in zip(levels, levels[1:]):
+        (u, v), (fine_u, fine_v) = example.values_on(coarse), example.values_on(fine)
+        assert np.allclose(example.prolong_quadratic(coarse, fine, u), fine_u, rtol=0, atol=1e-13)
+        assert np.allclose(example.prolong_along_edges(coarse, fine, v), fine_v, rtol=0, atol=1e-13)
 
 
 def max_of(a, b):

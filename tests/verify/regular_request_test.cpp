@@ -240,6 +240,12 @@ TEST(CertifiedShapes, BoundTheAnglesOfEachRegularlyRefinedCell) {
         EXPECT_EQ(note_of(coarse),
                   "dihedral angles and eta, exactly; solid angles, in floating point");
     }
+    // The greatest angle is 180 degrees when rounded.
+    for (const double height : {0x1p-52, 0x1p-53, 0x1p-60, 1e-20, 1e-90}) {
+        EXPECT_EQ(
+            note_of(test::one_cell({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, height}}})),
+            "dihedral angles and eta, exactly; solid angles, in floating point");
+    }
     // Far from the origin, rounding of midpoints changes the angles by more than that of bounds.
     Mesh far = test::kuhn(2, 1, 1, 0.5);
     for (Point& p : far.points) p = {p.x / 3 + 1e6, p.y / 3 + 1e6, p.z / 3 + 1e6};

@@ -24,7 +24,7 @@ using CellCorners = std::array<Point, 4>;
 class DihedralLimits {
 public:
     DihedralLimits(double least, double greatest)
-        : least_(least), above_greatest_(std::nextafter(greatest, 360.0)) {}
+        : least_(least), above_greatest_(std::nextafter(greatest, 180.0)) {}
 
     /// Decides exactly.
     [[nodiscard]] bool hold_for(const CellCorners& p, Arithmetic& arithmetic) const {
@@ -71,7 +71,8 @@ public:
                 by_slack);
         }
         if (unknown > 0)
-            note += fmt::format("; {} cells beyond open sets were not compared", unknown);
+            note += fmt::format(
+                "; {} cells beyond open sets, or too thin to certify, were not compared", unknown);
         return note;
     }
 

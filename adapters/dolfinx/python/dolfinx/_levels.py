@@ -5,14 +5,14 @@ from typing import Any, List, Tuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import Level, _octetra
+from .. import _octetra
 from . import _versions
 from ._common import check
 from ._functions import _corners, _fault_of_space
 from ._handover import Handover
 
 
-def interpolations(levels: List[Level], handover: Handover, space: Any) -> List[Any]:
+def interpolations(levels: List[_octetra.Level], handover: Handover, space: Any) -> List[Any]:
     """Collective. Returns the petsc4py.PETSc.Mat that interpolate from each space to the next one: those of degree 1
     on all levels, and finally `space`, of continuous Lagrange elements of degree 1 or 2 on handover.mesh, the mesh of
     the last level. A space of degree 2 is one more level. Its rows are in the order of DOLFINx's vectors and matrices;
@@ -29,7 +29,7 @@ def interpolations(levels: List[Level], handover: Handover, space: Any) -> List[
     return matrices[:-1] + [to_space.matMult(matrix) for matrix in matrices[-1:]]
 
 
-def _fault(levels: List[Level], handover: Handover, space: Any) -> str:
+def _fault(levels: List[_octetra.Level], handover: Handover, space: Any) -> str:
     if len(handover.cells) != len(levels[-1].cells):
         return (f"the last level has {len(levels[-1].cells)} cells on this rank, and the handover "
                 f"{len(handover.cells)}")
@@ -38,7 +38,7 @@ def _fault(levels: List[Level], handover: Handover, space: Any) -> str:
     return _fault_of_space(space, handover)
 
 
-def _to_space(level: Level, handover: Handover, space: Any) -> Any:
+def _to_space(level: _octetra.Level, handover: Handover, space: Any) -> Any:
     """Collective. The matrix from the values at the vertices of a level to the (blocks of) dofs of a space on it. The
     dof at a vertex has its value, and that at the middle of an edge the mean of the ends."""
     from petsc4py import PETSc  # type: ignore[import]

@@ -13,6 +13,7 @@ from . import mark as mark
 from . import quality as quality
 from ._octetra import (
     Adaptation as Adaptation,
+    Background as Background,
     Edges as Edges,
     Error as Error,
     Fit as Fit,

@@ -12,6 +12,7 @@ namespace octetra::python {
 using MeshClass = py::class_<Mesh, MeshPointer>;
 
 void bind_arrays(MeshClass& mesh);
+void bind_background(py::module_& module, MeshClass& mesh);
 void bind_certificate(py::module_& module, MeshClass& mesh);
 void bind_fit(py::module_& module, MeshClass& mesh);
 void bind_files(py::module_& module, MeshClass& mesh);

@@ -8,6 +8,7 @@
 
 #include "arguments.hpp"
 #include "arrays.hpp"
+#include "backgrounds.hpp"
 #include "bind.hpp"
 #include "fields.hpp"
 #include "step_options.hpp"
@@ -68,15 +69,18 @@ py::dict counts_of_misfits(MeshFit& fit, const Arguments& arguments) {
 py::array values_of_expression(Mesh& mesh, const Arguments& arguments) {
     std::optional<Expression> expression;
     std::vector<od::Field> fields;
+    std::vector<od::Background> backgrounds;
     convert_on_each(mesh.processes(), [&] {
-        const auto [text, on_vertices, on_cells] = arguments.values<3>();
+        const auto [text, on_vertices, on_cells, given] = arguments.values<4>();
         expression.emplace(string_from("expression", text));
         fields = fields_of(py::reinterpret_borrow<py::object>(on_vertices),
                            py::reinterpret_borrow<py::object>(on_cells), mesh.vertex_count(),
                            mesh.cell_count());
+        backgrounds = backgrounds_of(given);
     });
-    return array_of(mesh.ask(
-        [&](const od::AdaptiveMesh& now) { return now.cell_values(*expression, fields); }));
+    return array_of(mesh.ask([&](const od::AdaptiveMesh& now) {
+        return now.cell_values(*expression, fields, backgrounds);
+    }));
 }
 
 /// Collective.
@@ -110,7 +114,8 @@ py::array reduced_marks(Mesh& mesh, const Arguments& arguments) {
 }  // namespace
 
 void bind_fit(py::module_& module, MeshClass& mesh) {
-    def_method(mesh, "cell_values", "expression, vertex_fields=None, cell_fields=None",
+    def_method(mesh, "cell_values",
+               "expression, vertex_fields=None, cell_fields=None, backgrounds=None",
                &values_of_expression,
                "Collective. float64 (cells,): the value of an expression in each cell of this "
                "rank, such as \"0.02 + distance(wall) / 4\". Arguments as for mark.where().");

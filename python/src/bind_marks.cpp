@@ -15,6 +15,7 @@
 
 #include "arguments.hpp"
 #include "arrays.hpp"
+#include "backgrounds.hpp"
 #include "bind.hpp"
 #include "fields.hpp"
 #include "values.hpp"
@@ -76,15 +77,18 @@ py::array marks_where(const Arguments& arguments) {
     Mesh& mesh = mesh_in(arguments);
     Selection selection;
     std::vector<od::Field> fields;
+    std::vector<od::Background> backgrounds;
     convert_on_each(mesh.processes(), [&] {
-        const auto [itself, text, on_vertices, on_cells] = arguments.values<4>();
+        const auto [itself, text, on_vertices, on_cells, given] = arguments.values<5>();
         selection.where.emplace_back(string_from("expression", text));
         fields = fields_of(py::reinterpret_borrow<py::object>(on_vertices),
                            py::reinterpret_borrow<py::object>(on_cells), mesh.vertex_count(),
                            mesh.cell_count());
+        backgrounds = backgrounds_of(given);
     });
-    return booleans(
-        mesh.ask([&](const od::AdaptiveMesh& now) { return now.marked_cells(selection, fields); }));
+    return booleans(mesh.ask([&](const od::AdaptiveMesh& now) {
+        return now.marked_cells(selection, fields, backgrounds);
+    }));
 }
 
 /// The expression of a target size: an expression as it is, a number, or sizes or metrics of the
@@ -107,8 +111,10 @@ py::array marks_by_size(const Arguments& arguments) {
     Mesh& mesh = mesh_in(arguments);
     Selection selection;
     std::vector<od::Field> fields;
+    std::vector<od::Background> backgrounds;
     convert_on_each(mesh.processes(), [&] {
-        const auto [itself, given, gradation, on_vertices, on_cells] = arguments.values<5>();
+        const auto [itself, given, gradation, on_vertices, on_cells, others] =
+            arguments.values<6>();
         fields = fields_of(py::reinterpret_borrow<py::object>(on_vertices),
                            py::reinterpret_borrow<py::object>(on_cells), mesh.vertex_count(),
                            mesh.cell_count());
@@ -119,9 +125,11 @@ py::array marks_by_size(const Arguments& arguments) {
             size = fmt::format("graded({}, {})", size, limit);
         }
         selection.where.emplace_back(fmt::format("longest > ({})", size));
+        backgrounds = backgrounds_of(others);
     });
-    return booleans(
-        mesh.ask([&](const od::AdaptiveMesh& now) { return now.marked_cells(selection, fields); }));
+    return booleans(mesh.ask([&](const od::AdaptiveMesh& now) {
+        return now.marked_cells(selection, fields, backgrounds);
+    }));
 }
 
 /// The tag, or that of the group of cells with this name.
@@ -208,13 +216,16 @@ void bind_marks(py::module_& module) {
                  "largest indicators, and all cells that tie with the last one.");
     bind_criteria(mark);
     def_function(
-        mark, "where", "mesh, expression, vertex_fields=None, cell_fields=None", &marks_where,
+        mark, "where", "mesh, expression, vertex_fields=None, cell_fields=None, backgrounds=None",
+        &marks_where,
         "Collective. bool (cells,): marks the cells for which the expression is true, such "
         "as \"distance(wall) < 0.1 and longest > 0.02\". As --where.\n\n"
         "expression: the same on all ranks. vertex_fields, cell_fields: {name: array}, the "
-        "values that field(name) uses.");
+        "values that field(name) uses. backgrounds: [Background], those of "
+        "background(name).");
     def_function(
-        mark, "size", "mesh, size, gradation=None, vertex_fields=None, cell_fields=None",
+        mark, "size",
+        "mesh, size, gradation=None, vertex_fields=None, cell_fields=None, backgrounds=None",
         &marks_by_size,
         "Collective. bool (cells,): marks the cells with an edge longer than the target size. As "
         "--size and --gradation.\n\n"
@@ -222,7 +233,8 @@ void bind_marks(py::module_& module) {
         "vertices: sizes (vertices,), of which the mean over a cell's vertices counts, or metrics "
         "(vertices, 6) with the components xx, yy, zz, xy, yz, xz. gradation: the size grows from "
         "a cell to the next by at most gradation - 1 for each unit of length. vertex_fields, "
-        "cell_fields: {name: array}, the values that size(name) and field(name) use.");
+        "cell_fields: {name: array}, the values that size(name) and field(name) use. backgrounds: "
+        "[Background], those of background(name).");
 }
 
 }  // namespace octetra::python

@@ -108,6 +108,7 @@ PYBIND11_MODULE(_octetra, module) {
     bind_adaptation(module, mesh);
     bind_migration(module);
     bind_arrays(mesh);
+    bind_background(module, mesh);
     bind_files(module, mesh);
     bind_fit(module, mesh);
     bind_from_arrays(module);

@@ -121,6 +121,10 @@ CASES = {
     "expression must be a string, not 3": lambda m: Call(m, "x < 1")(octetra.mark.where, m, 3),
     "column 3: = assigns; a comparison for equality is ==\n  x = 1\n    ^": lambda m: Call(m, "x < 1")(
         octetra.mark.where, m, "x = 1"),
+    "backgrounds must be a list of octetra.Background, not 3": lambda m: Call(m, "x < 1", None, None, [])(
+        octetra.mark.where, m, "x < 1", None, None, 3),
+    "as_background() takes either vertex_values or cell_values": lambda m: Call("h", np.ones(len(m.points)))(
+        m.as_background, "h"),
     "gradation must be above 1, not 1.0": lambda m: Call(m, "x")(octetra.mark.size, m, "x", 1.0),
     "gradation must be a number, not 'a'": lambda m: Call(m, "x")(octetra.mark.size, m, "x", "a"),
     "column 2: a number or variable is missing at the end\n  -\n   ^": lambda m: Call(m, "x")(

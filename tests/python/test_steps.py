@@ -102,6 +102,25 @@ def test_sizes_are_those_of_the_vertices(mesh):
     assert np.array_equal(octetra.mark.size(mesh, "size(h)", 1e6, cell_fields={"h": sharp}), longest > sharp)
 
 
+def test_a_background_keeps_its_values_when_the_mesh_changes(mesh):
+    linear = 0.1 + mesh.points @ [0.2, -0.05, 0.1]
+    background = mesh.as_background("h", linear)
+    least = mesh.as_background("least", cell_values=np.arange(len(mesh.cells)))
+    mesh.refine()
+    mesh.rebalance(most_over_mean=1.0)
+    expected = 0.1 + mesh.points[mesh.cells].mean(axis=1) @ [0.2, -0.05, 0.1]
+    assert np.allclose(mesh.cell_values("background(h)", backgrounds=[background]), expected, rtol=1e-13)
+    marked = octetra.mark.size(mesh, "background(h)", backgrounds=[background])
+    longest = mesh.cell_values("longest")
+    is_clear = np.abs(longest - expected) > 1e-12
+    assert np.array_equal(marked[is_clear], (longest > expected)[is_clear]) and 0 < total(marked.sum())
+    both = octetra.mark.where(mesh, "background(least) >= 0 and background(h) > 0", None, None,
+                              [least, background])
+    assert both.all()
+    with pytest.raises(octetra.InputError, match="no such background mesh; there are h"):
+        mesh.cell_values("background(g)", backgrounds=[background])
+
+
 def test_regions_have_the_names_of_the_file(folder):
     box = pathlib.Path(__file__).resolve().parents[2] / "corpus/meshes/gmsh-box-22.msh"
     mesh = octetra.read(box)

@@ -186,11 +186,23 @@ verify::Verdict verify_distributed(const VerifyCommandOptions& given, verify::Ve
     return verify_refinement(std::move(first), std::move(second), world, options);
 }
 
+/// The rule of the longest-edge closure does not hold for a mesh that the regular closure made.
+void check_closure(const VerifyCommandOptions& given, const verify::VerifyOptions& options) {
+    if (!options.request || options.closure == Closure::regular) return;
+    if (!is_checkpoint(given.second)) return;
+    if (read_checkpoint_facts(given.second).closure != Closure::regular) return;
+    throw InputError(fmt::format(
+        "{}: the mesh was refined with the regular closure: repeat the command with --closure "
+        "regular",
+        given.second));
+}
+
 /// Collective. Returns whether the mesh is valid.
 bool run(const VerifyCommandOptions& given, const distributed::Communicator& world) {
     verify::VerifyOptions options = options_of(given);
     const Coarsened coarsened = coarsened_of(given);
     world.on_first([&] {
+        check_closure(given, options);
         if (given.report.empty()) return;
         check_side_file("--report", given.report);
         check_distinct_files(

@@ -132,6 +132,9 @@ TEST_F(Parallel, EndsInOneMessageWhereARankCannotWriteAndLeavesNothing) {
                                "ulimit -f 100; exec " + std::string(OCTETRA_PROGRAM) +
                                    " refine gear.1.ele --all --quiet -o " + output},
                               folder.path());
+        if (run.err.find("MPI_Init") != std::string::npos) {
+            GTEST_SKIP() << "this MPI (MPICH with UCX) cannot start where files are so limited";
+        }
         EXPECT_EQ(run.status, 3) << output << "\n" << run.err;
         EXPECT_EQ(occurrences(run.err, "octetra: p"), 1U) << output << "\n" << run.err;
         EXPECT_THAT(run.err, HasSubstr("writing failed: File too large")) << output;
@@ -227,7 +230,7 @@ void expect_ends_at_kills(const std::string& command, const std::string& output,
         const auto run = run_with_a_kill(rank, at, command, folder);
         EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
         EXPECT_TRUE(test::reports_signal(run.status, SIGKILL)) << run.status;
-        EXPECT_THAT(run.err, HasSubstr("signal 9"));
+        EXPECT_THAT(run.out + run.err, HasSubstr("signal 9"));  // MPICH: to stdout
         const std::string content = test::content_of(folder / output);
         EXPECT_TRUE(content == "as it was" || (at == calls && content == complete));
     }
